@@ -1,0 +1,46 @@
+# Each target sets up what it needs in .venv. A sourced ROS stays out of it: two ROS in one process do not mix.
+unexport AMENT_PREFIX_PATH COLCON_PREFIX_PATH LD_LIBRARY_PATH PYTHONPATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
+export ROS_AUTOMATIC_DISCOVERY_RANGE ?= LOCALHOST
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: help setup sim test test-fast lint lock clean
+
+help:  ## say what the targets do
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+setup: $(VENV)/ready  ## install the package and its tools, versions as locked, in .venv
+
+$(VENV)/ready: requirements.lock setup.py setup.cfg pyproject.toml $(wildcard resource/commands/*)
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' \
+	  || { echo "yawdamp_ros: $(PYTHON) is not Python 3.11 or 3.12; say make PYTHON=python3.11" >&2; exit 1; }
+	@$(PYTHON) -m venv $(VENV) || { echo "yawdamp_ros: install python3-venv first" >&2; exit 1; }
+	@echo "Installing into $(VENV) (once, about a minute) ..."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
+
+sim: setup  ## drive the interlink through a lane change for 15 s and record it
+	@$(BIN)/python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --duration 15
+
+test: setup  ## run every test
+	@$(BIN)/python -m pytest
+
+test-fast: setup  ## run the tests that need no ROS graph
+	@$(BIN)/python -m pytest -m "not graph"
+
+lint: setup  ## ruff, mypy and the layering
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports --no-cache
+
+lock: setup  ## renew requirements.lock
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check uv
+	@$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 --all-extras --no-header \
+	  --no-emit-index-url --no-annotate setup.py --output-file requirements.lock
+
+clean:  ## remove what the targets made, but for recorded runs
+	@rm -rf $(VENV) build install log *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis

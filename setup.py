@@ -1,0 +1,64 @@
+"""Packaging for colcon (ament_python) and pip alike."""
+
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+PACKAGE = "yawdamp_ros"
+ROOT = Path(__file__).parent
+STUBS = sorted(path for path in Path("resource/commands").iterdir())
+COMMANDS = [path.name for path in STUBS]
+
+
+def data_directory(directory: str) -> list[tuple[str, list[str]]]:
+    """Every file below a directory, to be installed below share/yawdamp_ros alike."""
+    files: dict[str, list[str]] = {}
+    for path in sorted(Path(directory).rglob("*")):
+        if path.is_file():
+            files.setdefault(f"share/{PACKAGE}/{path.parent}", []).append(str(path))
+    return list(files.items())
+
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    description="Lateral dynamics of heavy vehicle combinations as a ROS 2 simulator node",
+    long_description=(ROOT / "README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
+    maintainer="yawdamp_ros maintainers",
+    maintainer_email="maintainers@yawdamp-ros.example",
+    license="Apache-2.0",
+    python_requires=">=3.11",
+    packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
+    package_data={PACKAGE: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        # What `ros2 run` executes after a pip install; colcon puts its own scripts in their place.
+        (f"lib/{PACKAGE}", [str(path) for path in STUBS]),
+        *data_directory("config"),
+        *data_directory("launch"),
+    ],
+    install_requires=[
+        "setuptools",
+        "numpy>=1.26",
+        "scipy>=1.11",
+        "mcap>=1.2",  # the run files' own format library
+        "mcap-ros2-support>=0.5",  # decodes ROS messages from the schemas in a file, without ROS
+        "jsonschema>=4.10",  # vehicle files, by a schema that editors understand, too
+        "ruamel.yaml>=0.17",  # YAML 1.2 that refuses a key given twice
+        "rich>=13",  # progress bars and tables for terminals
+        "matplotlib>=3.6",  # the field's plotting library
+    ],
+    extras_require={
+        "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
+        # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.
+        "test": ["pytest>=8,<9", "pytest-timeout", "hypothesis", "sympy", "rosbags", "psutil"],
+        "lint": ["ruff", "mypy", "import-linter"],
+        "colcon": ["colcon-core", "colcon-ros"],
+    },
+    entry_points={
+        "console_scripts": [f"{name} = {PACKAGE}.__main__:script" for name in COMMANDS],
+    },
+    zip_safe=False,
+)

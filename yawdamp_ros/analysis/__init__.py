@@ -1,0 +1,1 @@
+"""Modes, measures and sweeps: arrays in, small result types out."""

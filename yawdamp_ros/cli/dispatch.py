@@ -1,0 +1,67 @@
+"""From a command line to the module of its command."""
+
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from types import MappingProxyType
+
+from yawdamp_ros.errors import YawdampError
+
+COMMANDS: Mapping[str, str] = MappingProxyType(
+    {
+        "sim": "the simulator node: steering in, motion of every unit out, recorded",
+        "replay": "publish a recorded steering log at its own pace",
+        "simulate": "the same run offline, as fast as it goes",
+    }
+)
+
+WRONG_USE = 2
+INTERRUPTED = 130
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        The command's name and what follows it.
+
+    Returns
+    -------
+    int
+        Exit status: 0, 1 for a negative answer, 2 for wrong use, 130 when interrupted.
+    """
+    if not arguments or arguments[0] in {"-h", "--help"}:
+        print(_overview())
+        return 0 if arguments else WRONG_USE
+    name, *rest = arguments
+    if name not in COMMANDS:
+        print(f"yawdamp_ros: {name}: no such command; one of {', '.join(COMMANDS)}", file=sys.stderr)
+        return WRONG_USE
+    try:
+        status: int = import_module(f"yawdamp_ros.cli.{name}").main(rest)
+        sys.stdout.flush()
+    except YawdampError as error:
+        print(f"yawdamp_ros {name}: {error}", file=sys.stderr)
+        return WRONG_USE
+    except KeyboardInterrupt:
+        print(f"yawdamp_ros {name}: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader of a pipe (head, less) has gone; nothing is wrong, and nothing more can be said.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    return status
+
+
+def _overview() -> str:
+    width = max(map(len, COMMANDS))
+    commands = "\n".join(f"  {name:{width}}  {summary}" for name, summary in COMMANDS.items())
+    return (
+        "usage: python -m yawdamp_ros COMMAND ...   (or: ros2 run yawdamp_ros COMMAND ...)\n\n"
+        "Lateral dynamics of heavy vehicle combinations.\n\n"
+        f"commands (each explains itself with --help):\n{commands}\n\n"
+        "example:\n  python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --duration 15"
+    )

@@ -1,0 +1,84 @@
+"""Options that several commands share, so that they read alike in each."""
+
+import argparse
+from typing import NoReturn
+
+from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.dynamics import MODELS, LinearModel, linear_model
+from yawdamp_ros.manoeuvres import MANOEUVRES, Manoeuvre, make_manoeuvre
+from yawdamp_ros.vehicle import Vehicle, load_vehicle
+
+MANOEUVRE_SETTINGS = {
+    "amplitude": ("RAD", "road-wheel steer angle, left positive"),
+    "frequency": ("HZ", "of the sine, or at the start of the chirp"),
+    "start": ("S", "when the steering begins"),
+    "cycles": ("N", "of the sine; 0: until the end"),
+    "rise-time": ("S", "of the ramp"),
+    "width": ("S", "of the pulse"),
+    "final-frequency": ("HZ", "of the chirp"),
+    "sweep-time": ("S", "of the chirp"),
+}
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser whose errors are one line each."""
+
+    def __init__(self, name: str, description: str, example: str) -> None:
+        super().__init__(
+            prog=f"yawdamp_ros {name}",
+            description=description,
+            epilog=f"example:\n  {example}",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+        )
+
+    def error(self, message: str) -> NoReturn:
+        """Raise the complaint as a `UsageError`."""
+        raise UsageError(message)
+
+
+def add_vehicle_options(parser: argparse.ArgumentParser) -> None:
+    """Add --vehicle, --speed, --model and --set."""
+    group = parser.add_argument_group("vehicle")
+    group.add_argument("--vehicle", default="interlink", help="builtin name or file (default: interlink)")
+    group.add_argument("--speed", type=float, metavar="M/S", help="default: the vehicle's own")
+    group.add_argument("--model", choices=tuple(MODELS), default="consistent", help="default: consistent")
+    group.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="change the vehicle, as in units.1.mass=4156 (counted from 0); may be repeated",
+    )
+
+
+def chosen_vehicle(options: argparse.Namespace) -> Vehicle:
+    """Vehicle that the options name, with its overrides, at the speed they give."""
+    overrides = list(options.set)
+    if options.speed is not None:
+        overrides.append(f"speed={options.speed!r}")
+    return load_vehicle(options.vehicle, overrides)
+
+
+def chosen_model(options: argparse.Namespace) -> LinearModel:
+    """Linear model of the vehicle that the options name."""
+    return linear_model(chosen_vehicle(options), model=options.model)
+
+
+def add_manoeuvre_options(parser: argparse.ArgumentParser) -> None:
+    """Add --manoeuvre and its settings."""
+    group = parser.add_argument_group("manoeuvre")
+    group.add_argument("--manoeuvre", choices=tuple(MANOEUVRES), help="the steering")
+    for setting, (metavar, explanation) in MANOEUVRE_SETTINGS.items():
+        group.add_argument(f"--{setting}", type=float, metavar=metavar, help=explanation)
+
+
+def manoeuvre_settings(options: argparse.Namespace) -> dict[str, float]:
+    """Settings that were given, by field name."""
+    names = [setting.replace("-", "_") for setting in MANOEUVRE_SETTINGS]
+    return {name: value for name in names if (value := getattr(options, name)) is not None}
+
+
+def chosen_manoeuvre(options: argparse.Namespace) -> Manoeuvre:
+    """Manoeuvre that the options name."""
+    return make_manoeuvre(options.manoeuvre, manoeuvre_settings(options))

@@ -1,0 +1,135 @@
+"""One vehicle at one speed as a linear state space with named states and outputs."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from yawdamp_ros.dynamics import consistent
+from yawdamp_ros.dynamics.errors import DynamicsError
+from yawdamp_ros.dynamics.kinematics import FloatArray, cg_rows
+from yawdamp_ros.vehicle import Vehicle
+
+MODELS: Mapping[str, Callable[[Vehicle, float], tuple[FloatArray, FloatArray]]] = MappingProxyType(
+    {"consistent": consistent.state_space}
+)
+"""The models of a vehicle, each a function from vehicle and speed to state and input matrix."""
+
+
+@dataclass(frozen=True)
+class LinearModel:
+    """``x' = A x + B delta``, ``y = C x + D delta`` for n units.
+
+    Attributes
+    ----------
+    vehicle : Vehicle
+    model : str
+        Name of the model in `MODELS`.
+    speed : float
+        Longitudinal speed in m/s.
+    state_matrix : ndarray, shape (2 n, 2 n)
+    input_matrix : ndarray, shape (2 n,)
+        By road-wheel steer angle in rad.
+    output_matrix : ndarray, shape (4 n - 1, 2 n)
+    feedthrough : ndarray, shape (4 n - 1,)
+    state_names : tuple of str
+        Lateral velocity of the lead unit (m/s), yaw rates (rad/s), articulation angles (rad).
+    output_names : tuple of str
+        For all units lateral velocity (m/s) in the unit's own frame, then yaw rate (rad/s), then
+        lateral acceleration (m/s^2), each at the centre of gravity; then articulation angles (rad).
+    """
+
+    vehicle: Vehicle
+    model: str
+    speed: float
+    state_matrix: FloatArray
+    input_matrix: FloatArray
+    output_matrix: FloatArray
+    feedthrough: FloatArray
+    state_names: tuple[str, ...]
+    output_names: tuple[str, ...]
+
+
+def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "consistent") -> LinearModel:
+    """Linear model of a vehicle at a speed.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    speed : float, optional
+        Longitudinal speed in m/s; the vehicle's own unless given.
+    model : str
+        One of `MODELS`.
+
+    Returns
+    -------
+    LinearModel
+
+    Raises
+    ------
+    DynamicsError
+        If the speed is not positive and finite, or there is no such model for this vehicle.
+    """
+    speed = vehicle.speed if speed is None else speed
+    if not (math.isfinite(speed) and speed > 0.0):
+        message = f"speed: {speed}: expected a speed in m/s above 0"
+        raise DynamicsError(message)
+    if model not in MODELS:
+        message = f"model: {model!r}: expected one of {', '.join(MODELS)}"
+        raise DynamicsError(message)
+    state_matrix, input_matrix = MODELS[model](vehicle, speed)
+    output_matrix, feedthrough = _outputs(vehicle, speed, state_matrix, input_matrix)
+    return LinearModel(
+        vehicle=vehicle,
+        model=model,
+        speed=speed,
+        state_matrix=state_matrix,
+        input_matrix=input_matrix,
+        output_matrix=output_matrix,
+        feedthrough=feedthrough,
+        state_names=_state_names(vehicle),
+        output_names=_output_names(vehicle),
+    )
+
+
+def _outputs(
+    vehicle: Vehicle, speed: float, state_matrix: FloatArray, input_matrix: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    count = len(vehicle.units)
+    rates = count + 1
+    rows = cg_rows(vehicle)
+    identity = np.eye(2 * count)
+    lateral_velocity = rows @ identity[:rates]
+    for index in range(count):
+        # v_k = y_k' - u psi_k, and psi_1 - psi_k is the sum of the joints ahead of unit k.
+        lateral_velocity[index, rates : rates + index] += speed
+    # a_y,k = y_k'' with y'' = v' + u r_1
+    lateral_acceleration = rows @ state_matrix[:rates]
+    lateral_acceleration[:, 1] += speed
+    output_matrix = np.vstack([lateral_velocity, identity[1:rates], lateral_acceleration, identity[rates:]])
+    feedthrough = np.zeros(len(output_matrix))
+    feedthrough[2 * count : 3 * count] = rows @ input_matrix[:rates]
+    return output_matrix, feedthrough
+
+
+def _state_names(vehicle: Vehicle) -> tuple[str, ...]:
+    lead = vehicle.unit_names[0]
+    return (
+        f"{lead}/lateral_velocity",
+        *(f"{name}/yaw_rate" for name in vehicle.unit_names),
+        *_articulations(vehicle),
+    )
+
+
+def _output_names(vehicle: Vehicle) -> tuple[str, ...]:
+    quantities = ("lateral_velocity", "yaw_rate", "lateral_acceleration")
+    return (
+        *(f"{name}/{quantity}" for quantity in quantities for name in vehicle.unit_names),
+        *_articulations(vehicle),
+    )
+
+
+def _articulations(vehicle: Vehicle) -> tuple[str, ...]:
+    return tuple(f"articulation_{joint}" for joint in range(1, len(vehicle.units)))

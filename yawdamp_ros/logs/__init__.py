@@ -1,0 +1,1 @@
+"""Steering logs in, runs out and in again."""

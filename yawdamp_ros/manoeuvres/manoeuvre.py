@@ -1,0 +1,69 @@
+"""Manoeuvres by name, as commands and parameters give them."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields
+from types import MappingProxyType
+
+from yawdamp_ros.manoeuvres.errors import ManoeuvreError
+from yawdamp_ros.manoeuvres.shapes import Chirp, LaneChange, Pulse, Ramp, Sine, Step
+
+Manoeuvre = Sine | Step | Ramp | Pulse | Chirp
+
+MANOEUVRES: Mapping[str, type[Manoeuvre]] = MappingProxyType(
+    {
+        "lane_change": LaneChange,
+        "sine": Sine,
+        "step": Step,
+        "ramp": Ramp,
+        "chirp": Chirp,
+        "pulse": Pulse,
+    }
+)
+
+_POSITIVE = frozenset({"frequency", "rise_time", "width", "final_frequency", "sweep_time"})
+_NOT_NEGATIVE = frozenset({"start", "cycles"})
+
+
+def make_manoeuvre(name: str, settings: Mapping[str, float]) -> Manoeuvre:
+    """Manoeuvre of a name with some of its settings given.
+
+    Parameters
+    ----------
+    name : str
+        One of `MANOEUVRES`.
+    settings : mapping of str to float
+        Fields of that manoeuvre; the others keep their defaults.
+
+    Returns
+    -------
+    Manoeuvre
+
+    Raises
+    ------
+    ManoeuvreError
+        If there is no such manoeuvre, it has no such setting, or a value is out of range.
+    """
+    if name not in MANOEUVRES:
+        message = f"manoeuvre: {name!r}: expected one of {', '.join(MANOEUVRES)}"
+        raise ManoeuvreError(message)
+    kind = MANOEUVRES[name]
+    known = [field.name for field in fields(kind)]
+    for setting, value in settings.items():
+        if setting not in known:
+            message = f"{setting}: manoeuvre {name} does not use it; it takes {', '.join(known)}"
+            raise ManoeuvreError(message)
+        _check(setting, value)
+    return kind(**settings)
+
+
+def _check(setting: str, value: float) -> None:
+    if setting in _POSITIVE:
+        valid, expected = value > 0.0, "a number above 0"
+    elif setting in _NOT_NEGATIVE:
+        valid, expected = value >= 0.0, "a number, 0 or more"
+    else:
+        valid, expected = abs(value) <= math.pi / 2, "an angle in rad of at most pi/2"
+    if not (valid and math.isfinite(value)):
+        message = f"{setting}: {value}: expected {expected}"
+        raise ManoeuvreError(message)

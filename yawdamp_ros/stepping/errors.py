@@ -1,0 +1,7 @@
+"""The one exception of the stepping room."""
+
+from yawdamp_ros.errors import YawdampError
+
+
+class SteppingError(YawdampError):
+    """Steps, periods or durations that do not fit together."""

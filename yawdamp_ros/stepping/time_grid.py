@@ -1,0 +1,72 @@
+"""Simulated time, counted in whole steps of whole nanoseconds."""
+
+from dataclasses import dataclass
+
+from yawdamp_ros.stepping.errors import SteppingError
+
+SECOND = 1_000_000_000
+"""Nanoseconds in a second."""
+
+
+def nanoseconds(seconds: float) -> int:
+    """Whole nanoseconds nearest to a time in s."""
+    return round(seconds * SECOND)
+
+
+@dataclass(frozen=True)
+class TimeGrid:
+    """A fixed step and the samples taken every so many of them.
+
+    Integers throughout: a sum of a million floats drifts, a count does not.
+
+    Attributes
+    ----------
+    step_ns : int
+        Length of a step in ns.
+    steps_per_sample : int
+        Steps from one published sample to the next.
+    """
+
+    step_ns: int
+    steps_per_sample: int
+
+    @classmethod
+    def of(cls, step_size: float, sample_period: float) -> "TimeGrid":
+        """Grid of a step size and a sample period, both in s.
+
+        Raises
+        ------
+        SteppingError
+            If the step is shorter than 1 us, or the period is not a whole number of steps.
+        """
+        step_ns, period_ns = nanoseconds(step_size), nanoseconds(sample_period)
+        if step_ns < 1000:  # noqa: PLR2004 - a microsecond
+            message = f"step_size: {step_size}: expected at least 1e-06 s"
+            raise SteppingError(message)
+        steps = round(period_ns / step_ns)
+        # A rate such as 300 Hz has no exact period; a nanosecond a step is the rounding of it.
+        if steps < 1 or abs(steps * step_ns - period_ns) > steps:
+            message = (
+                f"step_size: {step_size:g} s: expected a whole number of steps "
+                f"in a sample period of {sample_period:g} s"
+            )
+            raise SteppingError(message)
+        return cls(step_ns, steps)
+
+    @property
+    def step_size(self) -> float:
+        """Length of a step in s."""
+        return self.step_ns / SECOND
+
+    @property
+    def period_ns(self) -> int:
+        """Time from one sample to the next in ns."""
+        return self.step_ns * self.steps_per_sample
+
+    def seconds(self, step: int) -> float:
+        """Simulated time of a step in s."""
+        return step * self.step_ns / SECOND
+
+    def samples_in(self, duration: float) -> int:
+        """Whole sample periods in a duration given in s."""
+        return nanoseconds(duration) // self.period_ns

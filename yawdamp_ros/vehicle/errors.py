@@ -1,0 +1,23 @@
+"""The one exception of the vehicle room."""
+
+from yawdamp_ros.errors import YawdampError
+
+
+class VehicleError(YawdampError):
+    """A vehicle that cannot be used, said in one line.
+
+    Parameters
+    ----------
+    source : str
+        File or builtin name the vehicle came from.
+    key : str
+        Path of the wrong key, as `--set` takes it (``units.1.mass``); empty for the whole file.
+    problem : str
+        The value found and what was expected.
+    """
+
+    def __init__(self, source: str, key: str, problem: str) -> None:
+        super().__init__(": ".join(part for part in (source, key, problem) if part))
+        self.source = source
+        self.key = key
+        self.problem = problem
