@@ -43,7 +43,7 @@ setup(
         "setuptools",
         "numpy>=1.26",
         "scipy>=1.11",
-        "mcap>=1.2",  # the run files' own format library
+        "mcap>=1.6",  # the run files' own format library
         "mcap-ros2-support>=0.5",  # decodes ROS messages from the schemas in a file, without ROS
         "jsonschema>=4.10",  # vehicle files, by a schema that editors understand, too
         "ruamel.yaml>=0.17",  # YAML 1.2 that refuses a key given twice

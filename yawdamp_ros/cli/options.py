@@ -8,6 +8,8 @@ from yawdamp_ros.dynamics import MODELS, LinearModel, linear_model
 from yawdamp_ros.manoeuvres import MANOEUVRES, Manoeuvre, make_manoeuvre
 from yawdamp_ros.vehicle import Vehicle, load_vehicle
 
+DEFAULT_VEHICLE = "interlink"
+DEFAULT_MODEL = "consistent"
 MANOEUVRE_SETTINGS = {
     "amplitude": ("RAD", "road-wheel steer angle, left positive"),
     "frequency": ("HZ", "of the sine, or at the start of the chirp"),
@@ -38,11 +40,11 @@ class Parser(argparse.ArgumentParser):
 
 
 def add_vehicle_options(parser: argparse.ArgumentParser) -> None:
-    """Add --vehicle, --speed, --model and --set."""
+    """Add --vehicle, --speed, --model and --set; None is what was not given."""
     group = parser.add_argument_group("vehicle")
-    group.add_argument("--vehicle", default="interlink", help="builtin name or file (default: interlink)")
+    group.add_argument("--vehicle", help=f"builtin name or file (default: {DEFAULT_VEHICLE})")
     group.add_argument("--speed", type=float, metavar="M/S", help="default: the vehicle's own")
-    group.add_argument("--model", choices=tuple(MODELS), default="consistent", help="default: consistent")
+    group.add_argument("--model", choices=tuple(MODELS), help=f"default: {DEFAULT_MODEL}")
     group.add_argument(
         "--set",
         action="append",
@@ -57,12 +59,12 @@ def chosen_vehicle(options: argparse.Namespace) -> Vehicle:
     overrides = list(options.set)
     if options.speed is not None:
         overrides.append(f"speed={options.speed!r}")
-    return load_vehicle(options.vehicle, overrides)
+    return load_vehicle(options.vehicle or DEFAULT_VEHICLE, overrides)
 
 
 def chosen_model(options: argparse.Namespace) -> LinearModel:
     """Linear model of the vehicle that the options name."""
-    return linear_model(chosen_vehicle(options), model=options.model)
+    return linear_model(chosen_vehicle(options), model=options.model or DEFAULT_MODEL)
 
 
 def add_manoeuvre_options(parser: argparse.ArgumentParser) -> None:

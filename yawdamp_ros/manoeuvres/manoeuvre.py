@@ -21,6 +21,9 @@ MANOEUVRES: Mapping[str, type[Manoeuvre]] = MappingProxyType(
     }
 )
 
+SETTINGS = tuple(dict.fromkeys(field.name for kind in MANOEUVRES.values() for field in fields(kind)))
+"""Every setting that some manoeuvre takes."""
+
 _POSITIVE = frozenset({"frequency", "rise_time", "width", "final_frequency", "sweep_time"})
 _NOT_NEGATIVE = frozenset({"start", "cycles"})
 

@@ -45,28 +45,30 @@ def load_vehicle(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicle:
         If there is no such vehicle, or it is not a valid one; the message names file, key, value and
         what was expected.
     """
-    path = vehicle_path(vehicle)
-    source = str(vehicle)
-    return parse_vehicle(_read_text(path, source), source, overrides)
+    return parse_vehicle(vehicle_text(vehicle), str(vehicle), overrides)
 
 
-def vehicle_path(vehicle: str | Path) -> Path:
-    """Path of the file behind a builtin name or a path.
+def vehicle_text(vehicle: str | Path) -> str:
+    """Text of the file behind a builtin name or a path.
 
     Raises
     ------
     VehicleError
-        If there is no such file.
+        If there is no such file, or it cannot be read.
     """
+    source = str(vehicle)
     builtins = builtin_vehicles()
-    if str(vehicle) in builtins:
-        return _builtin_directory() / f"{vehicle}.yaml"
-    path = Path(vehicle)
-    if not path.is_file():
+    path = _builtin_directory() / f"{source}.yaml" if source in builtins else Path(vehicle)
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError as error:
         raise VehicleError(
-            str(vehicle), "", f"no such vehicle; expected a file or one of {', '.join(builtins)}"
-        )
-    return path
+            source, "", f"no such vehicle; expected a file or one of {', '.join(builtins)}"
+        ) from error
+    except OSError as error:
+        raise VehicleError(source, "", f"cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise VehicleError(source, "", "not UTF-8 text; expected a YAML file") from error
 
 
 def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehicle:
@@ -107,15 +109,6 @@ def _builtin_directory() -> Path:
 def _validator() -> Draft202012Validator:
     schema = share_directory() / "config" / "vehicle.schema.json"
     return Draft202012Validator(json.loads(schema.read_text(encoding="utf-8")))
-
-
-def _read_text(path: Path, source: str) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise VehicleError(source, "", f"cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise VehicleError(source, "", "not UTF-8 text; expected a YAML file") from error
 
 
 def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until it is checked

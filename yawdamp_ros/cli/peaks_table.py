@@ -1,0 +1,24 @@
+"""The short table that ends a run."""
+
+from yawdamp_ros.analysis.peaks import Peaks
+from yawdamp_ros.cli.console import print_table
+from yawdamp_ros.dynamics import LinearModel
+
+
+def print_peaks(model: LinearModel, peaks: Peaks) -> None:
+    """Print the largest magnitudes of each unit."""
+    units = zip(
+        model.vehicle.unit_names,
+        peaks.yaw,
+        peaks.yaw_rate,
+        peaks.lateral_acceleration,
+        strict=True,
+    )
+    print_table(
+        f"Peaks of {model.vehicle.name} at {model.speed:.4g} m/s ({model.model} model)",
+        ("unit", "yaw [rad]", "yaw rate [rad/s]", "lateral acceleration [m/s²]"),
+        [
+            (name, f"{yaw:.4f}", f"{yaw_rate:.4f}", f"{acceleration:.3f}")
+            for name, yaw, yaw_rate, acceleration in units
+        ],
+    )

@@ -1,0 +1,71 @@
+"""`replay`: publish a recorded steering log."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from yawdamp_ros.nodes.stop_request import StopRequest
+
+if TYPE_CHECKING:
+    import argparse
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Publish the log until it ends or a signal comes."""
+    # First of all, for a signal may come while the rest is imported.
+    stop = StopRequest()
+    from yawdamp_ros.cli.errors import UsageError  # noqa: PLC0415
+    from yawdamp_ros.cli.log_options import chosen_log  # noqa: PLC0415
+    from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415
+
+    options, ros_arguments = parse_before_ros(_parser(), arguments)
+    if not 0.0 < options.rate < float("inf"):
+        message = f"--rate: {options.rate}: expected a number above 0"
+        raise UsageError(message)
+    log = chosen_log(options.log, options, options.duration)
+    require_ros()
+    from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
+    from yawdamp_ros.nodes.graph import ros_graph  # noqa: PLC0415
+    from yawdamp_ros.nodes.replay import ReplayNode  # noqa: PLC0415
+
+    with ros_graph(ros_arguments):
+        node = ReplayNode(log, options.rate, stop)
+        lowest, highest = min(log.angles), max(log.angles)
+        print(
+            f"{log.source}: {len(log.times)} samples over {log.duration:g} s, "
+            f"{lowest:.4f} to {highest:.4f} rad, on {node.topic}",
+            flush=True,
+        )
+        if options.wait:
+            node.wait_for_subscriber()
+        with progress_bar() as bar:
+            task = bar.add_task("replaying", total=log.duration)
+            going = not stop.requested
+            while going:
+                going = node.play(lambda at: bar.update(task, completed=at)) and options.loop
+        node.close()
+    return 0
+
+
+def _parser() -> "argparse.ArgumentParser":
+    import argparse  # noqa: PLC0415
+
+    from yawdamp_ros.cli.log_options import add_log_options  # noqa: PLC0415
+    from yawdamp_ros.cli.options import Parser  # noqa: PLC0415
+
+    parser = Parser(
+        "replay",
+        "Publish a recorded steering log on /steering at its own pace, as road-wheel angles.",
+        "python -m yawdamp_ros replay drive.csv --column steering_wheel_angle_deg --steering-ratio 16.88",
+    )
+    parser.add_argument("log", metavar="LOG", help="CSV file with named columns")
+    parser.add_argument("--rate", type=float, default=1.0, help="times as fast as recorded; default: 1")
+    parser.add_argument("--duration", type=float, metavar="S", help="of the log; default: to its end")
+    parser.add_argument("--loop", action="store_true", help="start again at its end")
+    parser.add_argument(
+        "--wait",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="wait for a subscriber first; default: yes",
+    )
+    add_log_options(parser)
+    return parser

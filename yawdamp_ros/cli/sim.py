@@ -1,0 +1,104 @@
+"""`sim`: the simulator node."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from yawdamp_ros.nodes.stop_request import StopRequest
+
+if TYPE_CHECKING:
+    import argparse
+
+    from yawdamp_ros.nodes.sim import SimNode
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the node until its duration is over or a signal comes."""
+    # First of all, for a signal may come while the rest is imported.
+    stop = StopRequest()
+    from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415
+
+    options, ros_arguments = parse_before_ros(_parser(), arguments)
+    require_ros()
+    from yawdamp_ros.nodes.graph import ros_graph  # noqa: PLC0415
+    from yawdamp_ros.nodes.sim import SimNode  # noqa: PLC0415
+
+    with ros_graph(ros_arguments):
+        node = SimNode(_overrides(options))
+        try:
+            _run(node, stop)
+        finally:
+            node.close()
+        _report(node)
+    return 1 if node.recorder is not None and node.recorder.failure is not None else 0
+
+
+def _run(node: "SimNode", stop: StopRequest) -> None:
+    from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
+    from yawdamp_ros.nodes.graph import spin  # noqa: PLC0415
+
+    if stop.requested:
+        return
+    node.start()
+    with progress_bar() as bar:
+        task = bar.add_task("simulating", total=node.settings.duration, visible=bool(node.settings.duration))
+
+        def progress() -> None:
+            bar.update(task, completed=node.simulated_time)
+
+        spin(node, stop, lambda: node.finished, progress)
+
+
+def _report(node: "SimNode") -> None:
+    from yawdamp_ros.cli.peaks_table import print_peaks  # noqa: PLC0415
+
+    print_peaks(node.model, node.peaks)
+    if node.steps_given_up:
+        lost = node.grid.seconds(node.steps_given_up)
+        print(f"late: {node.steps_given_up} steps given up, {lost:g} s behind the steady clock")
+    if node.recorder is not None:
+        print(f"run: {node.recorder.directory}")
+
+
+def _parser() -> "argparse.ArgumentParser":
+    from yawdamp_ros.cli.options import (  # noqa: PLC0415
+        Parser,
+        add_manoeuvre_options,
+        add_vehicle_options,
+    )
+
+    parser = Parser(
+        "sim",
+        "The simulator node: steering in on /steering, the motion of every unit out, recorded. Every\n"
+        "parameter of the node can also follow --ros-args.",
+        "python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --duration 15\n"
+        "  ros2 run yawdamp_ros sim --ros-args -p vehicle:=interlink -p publish_rate:=50.0",
+    )
+    add_vehicle_options(parser)
+    add_manoeuvre_options(parser)
+    run = parser.add_argument_group("run")
+    run.add_argument("--duration", type=float, metavar="S", help="simulated time; default: until Ctrl-C")
+    run.add_argument("--step-size", type=float, metavar="S", help="default: 0.001")
+    run.add_argument("--publish-rate", type=float, metavar="HZ", help="default: 100")
+    run.add_argument("--output", metavar="DIRECTORY", help="of the run; default: runs/<stamp>_<vehicle>")
+    run.add_argument("--no-record", action="store_true", help="do not record")
+    return parser
+
+
+def _overrides(options: "argparse.Namespace") -> dict[str, Any]:
+    """Node parameters that the options give; those not given are left to --ros-args."""
+    from yawdamp_ros.cli.options import manoeuvre_settings  # noqa: PLC0415
+
+    given: dict[str, Any] = {
+        "vehicle": options.vehicle,
+        "vehicle_overrides": options.set or None,
+        "model": options.model,
+        "speed": options.speed,
+        "manoeuvre": options.manoeuvre,
+        "duration": options.duration,
+        "step_size": options.step_size,
+        "publish_rate": options.publish_rate,
+        "record_directory": options.output,
+        "record": False if options.no_record else None,
+        **manoeuvre_settings(options),
+    }
+    return {name: value for name, value in given.items() if value is not None}

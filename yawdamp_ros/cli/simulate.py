@@ -1,0 +1,118 @@
+"""`simulate`: a run offline, as fast as it goes."""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from yawdamp_ros.analysis.peaks import Peaks
+from yawdamp_ros.cli.console import progress_bar
+from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.log_options import add_log_options, chosen_log
+from yawdamp_ros.cli.options import (
+    DEFAULT_VEHICLE,
+    Parser,
+    add_manoeuvre_options,
+    add_vehicle_options,
+    chosen_manoeuvre,
+    chosen_model,
+    manoeuvre_settings,
+)
+from yawdamp_ros.cli.peaks_table import print_peaks
+from yawdamp_ros.cli.ros import require_ros
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.logs import ResponseCsv, default_run_directory
+from yawdamp_ros.stepping import Stepper, TimeGrid
+from yawdamp_ros.stepping.response import Steering, sample_run
+from yawdamp_ros.vehicle import vehicle_text
+
+if TYPE_CHECKING:
+    from yawdamp_ros.nodes.recording import RunRecorder
+
+DEFAULT_DURATION = 15.0
+RUN_SAMPLE_PERIOD = 0.01
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Simulate a manoeuvre or a log, write the run, print its peaks."""
+    options = _parser().parse_args(arguments)
+    model = chosen_model(options)
+    steering, duration = _steering(options)
+    if not 0.0 <= duration < float("inf"):
+        message = f"--duration: {duration}: expected a time in s, 0 or more"
+        raise UsageError(message)
+    output = Path(options.output) if options.output else default_run_directory(model.vehicle.name)
+    to_csv = output.suffix == ".csv"
+    period = options.sample_period or (options.step_size if to_csv else RUN_SAMPLE_PERIOD)
+    grid = TimeGrid.of(options.step_size, period)
+    samples = sample_run(Stepper(model, grid.step_size), grid, steering, duration)
+    sink = (
+        ResponseCsv(output, model.vehicle.unit_names, grid)
+        if to_csv
+        else _run_directory(output, model, grid, options)
+    )
+    peaks = Peaks(len(model.vehicle.units))
+    with sink as writer, progress_bar() as bar:
+        task = bar.add_task("simulating", total=duration)
+        for sample in samples:
+            writer.write(sample)
+            peaks.update(sample)
+            bar.update(task, completed=grid.seconds(sample.step))
+    print_peaks(model, peaks)
+    print(f"{'csv' if to_csv else 'run'}: {output}")
+    return 0
+
+
+def _steering(options: argparse.Namespace) -> tuple[Steering, float]:
+    """Steering as a function of time, and how long it is to be followed in s."""
+    if options.log is not None:
+        given = [*(["manoeuvre"] if options.manoeuvre else []), *manoeuvre_settings(options)]
+        if given:
+            message = f"--{given[0].replace('_', '-')}: expected either a manoeuvre or --log"
+            raise UsageError(message)
+        log = chosen_log(options.log, options, options.duration)
+        return log, log.duration if options.duration is None else options.duration
+    if options.manoeuvre is None:
+        message = "no steering; expected --manoeuvre NAME or --log FILE"
+        raise UsageError(message)
+    return chosen_manoeuvre(options), DEFAULT_DURATION if options.duration is None else options.duration
+
+
+def _run_directory(
+    directory: Path, model: LinearModel, grid: TimeGrid, options: argparse.Namespace
+) -> "RunRecorder":
+    require_ros()
+    from yawdamp_ros.nodes.recording import RunRecorder  # noqa: PLC0415 - a CSV needs no ROS
+
+    return RunRecorder(
+        directory,
+        model,
+        grid,
+        parameters=vars(options),
+        vehicle_text=vehicle_text(options.vehicle or DEFAULT_VEHICLE),
+    )
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        "simulate",
+        "Simulate a manoeuvre or a steering log offline, as fast as it goes.",
+        "python -m yawdamp_ros simulate --manoeuvre lane_change --output run.csv\n"
+        "  python -m yawdamp_ros simulate --log drive.csv --steering-ratio 16.88",
+    )
+    add_vehicle_options(parser)
+    add_manoeuvre_options(parser)
+    add_log_options(parser)
+    parser.add_argument("--log", metavar="FILE", help="steering log, in place of a manoeuvre")
+    run = parser.add_argument_group("run")
+    run.add_argument("--duration", type=float, metavar="S", help="default: 15, or to the end of the log")
+    run.add_argument("--step-size", type=float, default=0.001, metavar="S", help="default: 0.001")
+    run.add_argument(
+        "--sample-period", type=float, metavar="S", help="default: the step for CSV, 0.01 for a run directory"
+    )
+    run.add_argument(
+        "--output",
+        metavar="PATH",
+        help="a name ending in .csv, else a directory; default: runs/<stamp>_<vehicle>",
+    )
+    return parser

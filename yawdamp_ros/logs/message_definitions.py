@@ -1,0 +1,101 @@
+"""Definitions of ROS messages as an MCAP schema holds them: with every dependency.
+
+They are read from the ``.msg`` files that each message package installs, so that what is recorded is what
+is on the wire.
+"""
+
+import json
+import os
+import re
+import sys
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+from yawdamp_ros.logs.errors import LogError
+
+_SEPARATOR = "=" * 80
+_FIELD = re.compile(r"^\s*([A-Za-z]\w*(?:/\w+)*)(?:<=\d+)?(?:\[[^\]]*\])?\s+\w+")
+_PRIMITIVES = frozenset(
+    ["bool", "byte", "char", "float32", "float64", "string", "wstring"]
+    + [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
+)
+
+
+class MessageDefinition(NamedTuple):
+    """Schema text of a message type and its hash.
+
+    Attributes
+    ----------
+    text : str
+        Encoding ``ros2msg``.
+    type_hash : str
+        As in REP-2016; empty where the package does not tell.
+    """
+
+    text: str
+    type_hash: str
+
+
+@cache
+def message_definition(type_name: str) -> MessageDefinition:
+    """Definition of a message type.
+
+    Parameters
+    ----------
+    type_name : str
+        As in ``sensor_msgs/msg/Imu``.
+
+    Returns
+    -------
+    MessageDefinition
+
+    Raises
+    ------
+    LogError
+        If the package that defines it is not installed.
+    """
+    package, _, name = type_name.split("/")
+    main = _message_file(package, name)
+    sections = [main.read_text(encoding="utf-8").rstrip("\n")]
+    included: dict[str, None] = {f"{package}/{name}": None}
+    pending = _dependencies(sections[0], package)
+    while pending:
+        dependency = pending.pop(0)
+        if dependency in included:
+            continue
+        included[dependency] = None
+        text = _message_file(*dependency.split("/")).read_text(encoding="utf-8").rstrip("\n")
+        sections.append(f"{_SEPARATOR}\nMSG: {dependency}\n{text}")
+        pending += _dependencies(text, dependency.split("/")[0])
+    return MessageDefinition("\n".join(sections) + "\n", _type_hash(main, type_name))
+
+
+def _dependencies(text: str, package: str) -> list[str]:
+    found = []
+    for line in text.splitlines():
+        match = _FIELD.match(line)
+        if match and match[1] not in _PRIMITIVES:
+            parts = match[1].split("/")
+            found.append(f"{parts[0] if len(parts) > 1 else package}/{parts[-1]}")
+    return found
+
+
+def _message_file(package: str, name: str) -> Path:
+    # A ROS from PyPI lies below the interpreter's prefix, and sets no AMENT_PREFIX_PATH.
+    prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
+    for prefix in filter(None, prefixes):
+        path = Path(prefix, "share", package, "msg", f"{name}.msg")
+        if path.is_file():
+            return path
+    message_type = f"{package}/msg/{name}"
+    raise LogError(message_type, f"its definition is not installed; install {package}")
+
+
+def _type_hash(message_file: Path, type_name: str) -> str:
+    try:
+        described = json.loads(message_file.with_suffix(".json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return ""
+    hashes = {entry["type_name"]: entry["hash_string"] for entry in described["type_hashes"]}
+    return str(hashes.get(type_name, ""))

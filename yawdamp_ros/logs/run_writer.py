@@ -1,0 +1,218 @@
+"""A run on disk: a rosbag2 directory with one MCAP file that explains itself."""
+
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from io import StringIO
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mcap.writer import CompressionType, Writer
+from ruamel.yaml import YAML
+
+from yawdamp_ros.logs.errors import LogError
+from yawdamp_ros.logs.message_definitions import message_definition
+
+CHUNK_SIZE = 64 * 1024
+_INFINITE = {"sec": 9223372036, "nsec": 854775807}
+_QOS = {
+    "history": "keep_last",
+    "depth": 10,
+    "reliability": "reliable",
+    "durability": "volatile",
+    "deadline": _INFINITE,
+    "lifespan": _INFINITE,
+    "liveliness": "automatic",
+    "liveliness_lease_duration": _INFINITE,
+    "avoid_ros_namespace_conventions": False,
+}
+
+
+class Channel(NamedTuple):
+    """A topic of a run.
+
+    Attributes
+    ----------
+    topic : str
+        Fully qualified.
+    type_name : str
+        As in ``sensor_msgs/msg/Imu``.
+    """
+
+    topic: str
+    type_name: str
+
+
+class RunWriter:
+    """Writes a run directory; each call returns when the data is handed to the file.
+
+    Parameters
+    ----------
+    directory : Path
+        Made anew; never overwrites.
+    channels : sequence of Channel
+        Messages are written by their index in it.
+    attachments : mapping of str to str
+        Texts by file name, such as the vehicle file.
+    metadata : mapping of str to str
+        What else is needed to explain the run and to run it again.
+
+    Raises
+    ------
+    LogError
+        If the directory exists or cannot be written, here and from every method.
+    """
+
+    def __init__(
+        self,
+        directory: Path,
+        channels: Sequence[Channel],
+        attachments: Mapping[str, str],
+        metadata: Mapping[str, str],
+    ) -> None:
+        self.directory = directory
+        self._definitions = [message_definition(channel.type_name) for channel in channels]
+        self._channels = tuple(channels)
+        self._counts = [0] * len(channels)
+        self._first_time: int | None = None
+        self._last_time = 0
+        self._path = directory / f"{directory.name}_0.mcap"
+        try:
+            directory.mkdir(parents=True)
+            self._file = self._path.open("xb")
+            self._writer = Writer(
+                self._file,
+                chunk_size=CHUNK_SIZE,
+                compression=CompressionType.ZSTD,
+                enable_data_crcs=True,
+            )
+            self._writer.start(profile="ros2", library="yawdamp_ros")
+            self._register()
+            for name, text in attachments.items():
+                self._writer.add_attachment(0, 0, name, "text/plain", text.encode())
+            self._writer.add_metadata("yawdamp_ros", dict(metadata))
+            self._writer.flush()
+        except OSError as error:
+            raise self._failure(error) from error
+
+    def write(self, channel: int, log_time: int, data: bytes) -> None:
+        """Append a serialised message.
+
+        Parameters
+        ----------
+        channel : int
+            Index in the channels given at the start.
+        log_time : int
+            Simulated time in ns.
+        data : bytes
+            The message in CDR.
+        """
+        try:
+            self._writer.add_message(
+                channel_id=self._ids[channel],
+                log_time=log_time,
+                publish_time=log_time,
+                sequence=self._counts[channel],
+                data=data,
+            )
+        except OSError as error:
+            raise self._failure(error) from error
+        self._counts[channel] += 1
+        if self._first_time is None:
+            self._first_time = log_time
+        self._last_time = max(self._last_time, log_time)
+
+    def flush(self) -> None:
+        """Hand what has been written to the operating system, so that a kill does not lose it."""
+        try:
+            self._writer.flush()
+        except OSError as error:
+            raise self._failure(error) from error
+
+    def close(self) -> None:
+        """Finish the file and write metadata.yaml."""
+        try:
+            information = self._information()
+            self._writer.add_metadata("rosbag2", {"serialized_metadata": _dump_yaml(information)})
+            self._writer.finish()
+            self._file.close()
+            text = _dump_yaml({"rosbag2_bagfile_information": information})
+            (self.directory / "metadata.yaml").write_text(text, encoding="utf-8")
+        except OSError as error:
+            raise self._failure(error) from error
+
+    def _register(self) -> None:
+        schemas = {
+            channel.type_name: self._writer.register_schema(
+                channel.type_name, "ros2msg", definition.text.encode()
+            )
+            for channel, definition in zip(self._channels, self._definitions, strict=True)
+        }
+        qos = _dump_yaml([_QOS])
+        self._ids = [
+            self._writer.register_channel(
+                topic=channel.topic,
+                message_encoding="cdr",
+                schema_id=schemas[channel.type_name],
+                metadata={"offered_qos_profiles": qos, "topic_type_hash": definition.type_hash},
+            )
+            for channel, definition in zip(self._channels, self._definitions, strict=True)
+        ]
+
+    def _information(self) -> dict[str, Any]:
+        start = self._first_time or 0
+        span = {
+            "starting_time": {"nanoseconds_since_epoch": start},
+            "duration": {"nanoseconds": max(self._last_time - start, 0)},
+            "message_count": sum(self._counts),
+        }
+        return {
+            "version": 9,
+            "storage_identifier": "mcap",
+            **span,
+            "topics_with_message_count": [
+                {
+                    "topic_metadata": {
+                        "name": channel.topic,
+                        "type": channel.type_name,
+                        "serialization_format": "cdr",
+                        "offered_qos_profiles": [_QOS],
+                        "type_description_hash": definition.type_hash,
+                    },
+                    "message_count": count,
+                }
+                for channel, definition, count in zip(
+                    self._channels, self._definitions, self._counts, strict=True
+                )
+            ],
+            "compression_format": "",
+            "compression_mode": "",
+            "relative_file_paths": [self._path.name],
+            "files": [{"path": self._path.name, **span}],
+            "custom_data": None,
+            "ros_distro": "jazzy",
+        }
+
+    def _failure(self, error: OSError) -> LogError:
+        return LogError(self.directory, f"cannot be recorded to: {error.strerror}")
+
+
+def default_run_directory(vehicle_name: str) -> Path:
+    """A directory that does not exist yet: ``runs/<stamp>_<vehicle>`` below the working directory."""
+    stamp = datetime.now(tz=UTC).astimezone().strftime("%Y%m%d-%H%M%S")
+    wanted = Path("runs", f"{stamp}_{vehicle_name}")
+    directory, repeat = wanted, 1
+    while directory.exists():
+        repeat += 1
+        directory = wanted.with_name(f"{wanted.name}_{repeat}")
+    return directory
+
+
+def _dump_yaml(data: object) -> str:
+    yaml = YAML(typ="safe", pure=True)
+    yaml.default_flow_style = False
+    yaml.width = 1000
+    # Every reader knows plain YAML; an anchor for a repeated profile is not plain.
+    yaml.representer.ignore_aliases = lambda _: True
+    stream = StringIO()
+    yaml.dump(data, stream)
+    return stream.getvalue()

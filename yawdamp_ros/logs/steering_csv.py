@@ -1,0 +1,107 @@
+"""Steering logs in CSV files with named columns."""
+
+import csv
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from yawdamp_ros.logs.errors import LogError
+from yawdamp_ros.logs.steering_log import SteeringLog
+
+if TYPE_CHECKING:
+    import _csv
+
+TIME_COLUMNS = ("time", "time_s", "t", "timestamp")
+"""Names under which the time in s is looked for, in this order."""
+
+
+def read_steering_csv(path: Path, column: str | None = None, *, degrees: bool = False) -> SteeringLog:
+    """Read a steering log from a CSV file.
+
+    Parameters
+    ----------
+    path : Path
+        UTF-8, with a line of column names; one of them is in `TIME_COLUMNS`.
+    column : str, optional
+        Steering column; unless given, the one whose name contains ``steer``.
+    degrees : bool
+        Whether it holds degrees; a column whose name ends in ``_deg`` always does.
+
+    Returns
+    -------
+    SteeringLog
+        Its first sample at 0 s.
+
+    Raises
+    ------
+    LogError
+        If the file cannot be read, lacks a column, or holds a value that is none; the message names
+        the line.
+    """
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            return _parse(csv.reader(file), path, column, degrees=degrees)
+    except OSError as error:
+        raise LogError(path, f"cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise LogError(path, "not UTF-8 text; expected a CSV file") from error
+    except csv.Error as error:
+        raise LogError(path, f"not valid CSV: {error}") from error
+
+
+def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bool) -> SteeringLog:
+    header = [name.strip() for name in next(reader, [])]
+    if not header:
+        raise LogError(path, "empty; expected a line of column names")
+    time_column = next((name for name in TIME_COLUMNS if name in header), None)
+    if time_column is None:
+        raise LogError(
+            path, f"no time column; expected one of {', '.join(TIME_COLUMNS)} among {_listed(header)}"
+        )
+    angle_column = _steering_column(header, column, path)
+    at_time, at_angle = header.index(time_column), header.index(angle_column)
+    scale = math.pi / 180.0 if degrees or angle_column.endswith("_deg") else 1.0
+    times: list[float] = []
+    angles: list[float] = []
+    for row in reader:
+        if not row:
+            continue
+        where = f"line {reader.line_num}"
+        time = _number(row, at_time, time_column, where, path)
+        if times and time < times[-1]:
+            raise LogError(path, f"{where}: {time_column}: {time}: expected a time not before {times[-1]}")
+        times.append(time)
+        angles.append(scale * _number(row, at_angle, angle_column, where, path))
+    if not times:
+        raise LogError(path, "no samples after the line of column names")
+    return SteeringLog(str(path), [time - times[0] for time in times], angles)
+
+
+def _steering_column(header: Sequence[str], column: str | None, path: Path) -> str:
+    if column is not None:
+        if column not in header:
+            raise LogError(path, f"{column}: no such column; expected one of {_listed(header)}")
+        return column
+    candidates = [name for name in header if "steer" in name.lower()]
+    if len(candidates) != 1:
+        found = "several steering columns" if candidates else "no steering column"
+        raise LogError(path, f"{found}; name one with --column: {_listed(candidates or header)}")
+    return candidates[0]
+
+
+def _number(row: Sequence[str], index: int, column: str, where: str, path: Path) -> float:
+    if index >= len(row):
+        raise LogError(path, f"{where}: {column}: missing, the line has {len(row)} values")
+    try:
+        value = float(row[index])
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise LogError(path, f"{where}: {column}: {row[index]!r}: expected a finite number")
+    return value
+
+
+def _listed(names: Sequence[str], limit: int = 12) -> str:
+    shown = ", ".join(name[:40] for name in names[:limit])
+    return shown if len(names) <= limit else f"{shown}, ..."

@@ -1,0 +1,62 @@
+"""A recorded steering signal."""
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from yawdamp_ros.logs.errors import LogError
+
+
+@dataclass(frozen=True)
+class SteeringLog:
+    """Steering samples, each in force until the next.
+
+    Attributes
+    ----------
+    source : str
+        File it came from.
+    times : sequence of float
+        In s from the start of the log, not decreasing.
+    angles : sequence of float
+        In rad, left positive.
+    """
+
+    source: str
+    times: Sequence[float]
+    angles: Sequence[float]
+
+    def __call__(self, time: float) -> float:
+        """Angle in rad in force at a time in s: that of the newest sample; 0 before the first."""
+        index = bisect_right(self.times, time) - 1
+        return self.angles[index] if index >= 0 else 0.0
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample in s."""
+        return self.times[-1]
+
+    def divided(self, ratio: float) -> "SteeringLog":
+        """The same log in road-wheel angles, where it holds those of the hand wheel."""
+        return SteeringLog(self.source, self.times, [angle / ratio for angle in self.angles])
+
+    def window(self, start_offset: float, duration: float | None) -> "SteeringLog":
+        """The part from an offset on, for a duration, both in s; its time starts anew.
+
+        Raises
+        ------
+        LogError
+            If no sample is left.
+        """
+        end = float("inf") if duration is None else start_offset + duration
+        kept = [
+            (time - start_offset, angle)
+            for time, angle in zip(self.times, self.angles, strict=True)
+            if start_offset <= time <= end
+        ]
+        if not kept:
+            raise LogError(
+                self.source,
+                f"no sample between {start_offset:g} s and {end:g} s; the log lasts {self.duration:g} s",
+            )
+        times, angles = zip(*kept, strict=True)
+        return SteeringLog(self.source, times, angles)

@@ -1,0 +1,135 @@
+"""From samples to messages."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from geometry_msgs.msg import Quaternion
+from nav_msgs.msg import Odometry
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64
+
+from yawdamp_ros.stepping import Sample
+from yawdamp_ros.stepping.time_grid import SECOND
+
+STANDARD_GRAVITY = 9.80665
+"""In m/s^2; an accelerometer at rest shows it upwards (REP-145)."""
+SCALARS = ("yaw", "yaw_rate", "lateral_acceleration")
+STEERING_TYPE = "std_msgs/msg/Float64"
+"""Message in which a run holds the road-wheel steer angle as it was applied."""
+
+
+class OutputMessages:
+    """The messages of one instant, the same objects filled anew each time.
+
+    Parameters
+    ----------
+    unit_names : sequence of str
+    publish_scalars : bool
+        Whether yaw, yaw rate and lateral acceleration also go out as plain numbers.
+
+    Attributes
+    ----------
+    types : dict of str to type
+        Message class by relative topic, in the order in which `serialised` gives them.
+    """
+
+    def __init__(self, unit_names: Sequence[str], *, publish_scalars: bool) -> None:
+        self._imus = [_imu(name) for name in unit_names]
+        self._odometries = [_odometry(name) for name in unit_names]
+        self._joints = _joint_states(len(unit_names) - 1)
+        self._scalars = [Float64() for _ in unit_names for _ in SCALARS] if publish_scalars else []
+        self._last_steering: tuple[int, float] | None = None
+        topics = [f"{name}/imu" for name in unit_names]
+        topics += [f"{name}/odom" for name in unit_names]
+        topics.append("joint_states")
+        if publish_scalars:
+            topics += [f"{name}/{scalar}" for name in unit_names for scalar in SCALARS]
+        self._messages = [*self._imus, *self._odometries, self._joints, *self._scalars]
+        self.types: dict[str, type] = {
+            topic: type(message) for topic, message in zip(topics, self._messages, strict=True)
+        }
+
+    def serialised(self, sample: Sample, stamp: int) -> Iterator[bytes]:
+        """Messages of a sample in CDR, all with one stamp in ns, in the order of `types`."""
+        seconds, nanoseconds = divmod(stamp, SECOND)
+        for message in (*self._imus, *self._odometries, self._joints):
+            message.header.stamp.sec = seconds
+            message.header.stamp.nanosec = nanoseconds
+        self._fill_units(sample)
+        self._fill_joints(sample, stamp)
+        for message in self._messages:
+            yield serialize_message(message)
+
+    def _fill_units(self, sample: Sample) -> None:
+        x, y = sample.x.tolist(), sample.y.tolist()
+        yaw, yaw_rate = sample.yaw.tolist(), sample.yaw_rate.tolist()
+        velocity, acceleration = (
+            sample.lateral_velocity.tolist(),
+            sample.lateral_acceleration.tolist(),
+        )
+        for index, (imu, odometry) in enumerate(zip(self._imus, self._odometries, strict=True)):
+            for orientation in (imu.orientation, odometry.pose.pose.orientation):
+                _turn(orientation, yaw[index])
+            imu.angular_velocity.z = yaw_rate[index]
+            imu.linear_acceleration.y = acceleration[index]
+            odometry.pose.pose.position.x = x[index]
+            odometry.pose.pose.position.y = y[index]
+            odometry.twist.twist.linear.x = sample.speed
+            odometry.twist.twist.linear.y = velocity[index]
+            odometry.twist.twist.angular.z = yaw_rate[index]
+        if self._scalars:
+            values = zip(yaw, yaw_rate, acceleration, strict=True)
+            for scalar, value in zip(
+                self._scalars, (value for unit in values for value in unit), strict=True
+            ):
+                scalar.data = value
+
+    def _fill_joints(self, sample: Sample, stamp: int) -> None:
+        steering_rate = 0.0
+        if self._last_steering is not None and stamp > self._last_steering[0]:
+            elapsed = (stamp - self._last_steering[0]) / SECOND
+            steering_rate = (sample.steering_angle - self._last_steering[1]) / elapsed
+        self._last_steering = stamp, sample.steering_angle
+        self._joints.position = [sample.steering_angle, *sample.articulation.tolist()]
+        self._joints.velocity = [steering_rate, *sample.articulation_rate.tolist()]
+
+
+def serialised_steering(angle: float) -> bytes:
+    """Steer angle in rad as a message of `STEERING_TYPE` in CDR."""
+    data: bytes = serialize_message(Float64(data=angle))
+    return data
+
+
+def type_name(message_class: Any) -> str:  # noqa: ANN401 - generated classes share no base
+    """Name of a message class, as in ``sensor_msgs/msg/Imu``."""
+    return f"{message_class.__module__.split('.')[0]}/msg/{message_class.__name__}"
+
+
+def _imu(unit_name: str) -> Imu:
+    message = Imu()
+    message.header.frame_id = unit_name
+    message.linear_acceleration.z = STANDARD_GRAVITY
+    return message
+
+
+def _odometry(unit_name: str) -> Odometry:
+    message = Odometry()
+    message.header.frame_id = "odom"
+    message.child_frame_id = unit_name
+    return message
+
+
+def _joint_states(joints: int) -> JointState:
+    message = JointState()
+    message.name = ["steering", *(f"articulation_{joint}" for joint in range(1, joints + 1))]
+    # Filled though it means nothing here: a message that ends in an empty float64[] is padded in a way
+    # that some readers reject.
+    message.effort = [0.0] * (joints + 1)
+    return message
+
+
+def _turn(orientation: Quaternion, yaw: float) -> None:
+    orientation.z = math.sin(0.5 * yaw)
+    orientation.w = math.cos(0.5 * yaw)

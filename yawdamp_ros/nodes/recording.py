@@ -1,0 +1,155 @@
+"""What a recorded run holds besides its messages, alike for the node and for offline runs."""
+
+import json
+import math
+import platform
+from collections.abc import Iterable, Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.logs import Channel, RunWriter
+from yawdamp_ros.nodes.messages import (
+    STEERING_TYPE,
+    OutputMessages,
+    serialised_steering,
+    type_name,
+)
+from yawdamp_ros.stepping import Sample, TimeGrid
+
+RECORDED_VERSIONS = ("yawdamp_ros", "numpy", "scipy", "mcap")
+
+
+def open_run(  # noqa: PLR0913 - each is one part of what explains a run
+    directory: Path,
+    outputs: OutputMessages,
+    model: LinearModel,
+    grid: TimeGrid,
+    *,
+    start_time: int,
+    parameters: Mapping[str, object],
+    vehicle_text: str,
+    topics: Sequence[str],
+) -> RunWriter:
+    """Start a run directory that explains itself.
+
+    Parameters
+    ----------
+    directory : Path
+    outputs : OutputMessages
+    model : LinearModel
+    grid : TimeGrid
+    start_time : int
+        Stamp of step 0 in ns.
+    parameters : mapping of str to object
+        As the run was asked for.
+    vehicle_text : str
+        The vehicle file.
+    topics : sequence of str
+        Fully qualified names: of the steering, then of the outputs.
+
+    Returns
+    -------
+    RunWriter
+        Its first channel is the steering as applied, the others are the outputs.
+
+    Raises
+    ------
+    LogError
+        If the directory exists or cannot be written.
+    """
+    types = [STEERING_TYPE, *(type_name(kind) for kind in outputs.types.values())]
+    channels = [Channel(topic, name) for topic, name in zip(topics, types, strict=True)]
+    metadata = {
+        "vehicle": model.vehicle.name,
+        "model": model.model,
+        "speed": repr(model.speed),
+        "step_ns": str(grid.step_ns),
+        "steps_per_sample": str(grid.steps_per_sample),
+        "start_time_ns": str(start_time),
+        "state_names": json.dumps(model.state_names),
+        "state_matrix": json.dumps(model.state_matrix.tolist()),
+        "input_matrix": json.dumps(model.input_matrix.tolist()),
+        "parameters": json.dumps(
+            {name: None if _is_nan(value) else value for name, value in parameters.items()}
+        ),
+        "python": platform.python_version(),
+        "machine": platform.machine(),
+        **{f"{package}_version": version(package) for package in RECORDED_VERSIONS},
+    }
+    return RunWriter(directory, channels, {"vehicle.yaml": vehicle_text}, metadata)
+
+
+def run_messages(
+    sample: Sample, outputs: Sequence[bytes], grid: TimeGrid, start_time: int
+) -> Iterable[tuple[int, int, bytes]]:
+    """Messages of a sample as `RunWriter.write` takes them: channel, time in ns, data."""
+    for step, angle in sample.steering_changes:
+        yield 0, start_time + step * grid.step_ns, serialised_steering(angle)
+    stamp = start_time + sample.step * grid.step_ns
+    for index, data in enumerate(outputs):
+        yield 1 + index, stamp, data
+
+
+def _is_nan(value: object) -> bool:
+    return isinstance(value, float) and math.isnan(value)
+
+
+class RunRecorder:
+    """Writes the samples of an offline run, stamped from 0, as the node would.
+
+    Parameters
+    ----------
+    directory : Path
+    model : LinearModel
+    grid : TimeGrid
+    parameters : mapping of str to object
+    vehicle_text : str
+
+    Raises
+    ------
+    LogError
+        If the directory exists or cannot be written, here and at every write.
+    """
+
+    def __init__(
+        self,
+        directory: Path,
+        model: LinearModel,
+        grid: TimeGrid,
+        *,
+        parameters: Mapping[str, object],
+        vehicle_text: str,
+    ) -> None:
+        self._grid = grid
+        self._outputs = OutputMessages(model.vehicle.unit_names, publish_scalars=True)
+        self._writer = open_run(
+            directory,
+            self._outputs,
+            model,
+            grid,
+            start_time=0,
+            parameters=parameters,
+            vehicle_text=vehicle_text,
+            topics=[f"/{topic}" for topic in ("steering", *self._outputs.types)],
+        )
+
+    def write(self, sample: Sample) -> None:
+        """Append the messages of a sample."""
+        stamp = sample.step * self._grid.step_ns
+        outputs = list(self._outputs.serialised(sample, stamp))
+        for message in run_messages(sample, outputs, self._grid, 0):
+            self._writer.write(*message)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self._writer.close()
