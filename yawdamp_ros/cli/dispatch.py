@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from importlib import import_module
 from types import MappingProxyType
 
+from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.errors import YawdampError
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
@@ -33,26 +34,33 @@ def run(arguments: Sequence[str]) -> int:
     int
         Exit status: 0, 1 for a negative answer, 2 for wrong use, 130 when interrupted.
     """
-    if not arguments or arguments[0] in {"-h", "--help"}:
-        print(_overview())
-        return 0 if arguments else WRONG_USE
-    name, *rest = arguments
-    if name not in COMMANDS:
-        print(f"yawdamp_ros: {name}: no such command; one of {', '.join(COMMANDS)}", file=sys.stderr)
-        return WRONG_USE
+    prefix = " ".join(["yawdamp_ros", *arguments[:1]])
     try:
-        status: int = import_module(f"yawdamp_ros.cli.{name}").main(rest)
-        sys.stdout.flush()
+        try:
+            return _dispatch(arguments)
+        finally:
+            sys.stdout.flush()
     except YawdampError as error:
-        print(f"yawdamp_ros {name}: {error}", file=sys.stderr)
+        print(f"{prefix}: {error}", file=sys.stderr)
         return WRONG_USE
     except KeyboardInterrupt:
-        print(f"yawdamp_ros {name}: interrupted", file=sys.stderr)
+        print(f"{prefix}: interrupted", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
         # The reader of a pipe (head, less) has gone; nothing is wrong, and nothing more can be said.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+
+
+def _dispatch(arguments: Sequence[str]) -> int:
+    if not arguments or arguments[0] in {"-h", "--help"}:
+        print(_overview())
+        return 0 if arguments else WRONG_USE
+    name, *rest = arguments
+    if name not in COMMANDS:
+        message = f"no such command; expected one of {', '.join(COMMANDS)}"
+        raise UsageError(message)
+    status: int = import_module(f"yawdamp_ros.cli.{name}").main(rest)
     return status
 
 

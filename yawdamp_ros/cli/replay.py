@@ -12,7 +12,11 @@ if TYPE_CHECKING:
 def main(arguments: Sequence[str]) -> int:
     """Publish the log until it ends or a signal comes."""
     # First of all, for a signal may come while the rest is imported.
-    stop = StopRequest()
+    with StopRequest() as stop:
+        return _replay(arguments, stop)
+
+
+def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
     from yawdamp_ros.cli.errors import UsageError  # noqa: PLC0415
     from yawdamp_ros.cli.log_options import chosen_log  # noqa: PLC0415
     from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415

@@ -14,7 +14,11 @@ if TYPE_CHECKING:
 def main(arguments: Sequence[str]) -> int:
     """Run the node until its duration is over or a signal comes."""
     # First of all, for a signal may come while the rest is imported.
-    stop = StopRequest()
+    with StopRequest() as stop:
+        return _sim(arguments, stop)
+
+
+def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
     from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415
 
     options, ros_arguments = parse_before_ros(_parser(), arguments)

@@ -22,6 +22,7 @@ from yawdamp_ros.cli.peaks_table import print_peaks
 from yawdamp_ros.cli.ros import require_ros
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.logs import ResponseCsv, default_run_directory
+from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.stepping import Stepper, TimeGrid
 from yawdamp_ros.stepping.response import Steering, sample_run
 from yawdamp_ros.vehicle import vehicle_text
@@ -46,18 +47,22 @@ def main(arguments: Sequence[str]) -> int:
     period = options.sample_period or (options.step_size if to_csv else RUN_SAMPLE_PERIOD)
     grid = TimeGrid.of(options.step_size, period)
     samples = sample_run(Stepper(model, grid.step_size), grid, steering, duration)
-    sink = (
-        ResponseCsv(output, model.vehicle.unit_names, grid)
-        if to_csv
-        else _run_directory(output, model, grid, options)
-    )
     peaks = Peaks(len(model.vehicle.units))
-    with sink as writer, progress_bar() as bar:
-        task = bar.add_task("simulating", total=duration)
-        for sample in samples:
-            writer.write(sample)
-            peaks.update(sample)
-            bar.update(task, completed=grid.seconds(sample.step))
+    with StopRequest() as stop:
+        sink = (
+            ResponseCsv(output, model.vehicle.unit_names, grid)
+            if to_csv
+            else _run_directory(output, model, grid, options)
+        )
+        with sink as writer, progress_bar() as bar:
+            task = bar.add_task("simulating", total=duration)
+            for sample in samples:
+                writer.write(sample)
+                peaks.update(sample)
+                bar.update(task, completed=grid.seconds(sample.step))
+                if stop.requested:
+                    # Raised inside, so that what was simulated is kept in a finished file.
+                    raise KeyboardInterrupt
     print_peaks(model, peaks)
     print(f"{'csv' if to_csv else 'run'}: {output}")
     return 0

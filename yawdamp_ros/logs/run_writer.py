@@ -1,8 +1,9 @@
 """A run on disk: a rosbag2 directory with one MCAP file that explains itself."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from datetime import UTC, datetime
-from io import StringIO
+from io import BufferedWriter, StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -76,6 +77,8 @@ class RunWriter:
         self._first_time: int | None = None
         self._last_time = 0
         self._path = directory / f"{directory.name}_0.mcap"
+        self._file: BufferedWriter | None = None
+        self._failed = False
         try:
             directory.mkdir(parents=True)
             self._file = self._path.open("xb")
@@ -129,12 +132,14 @@ class RunWriter:
             raise self._failure(error) from error
 
     def close(self) -> None:
-        """Finish the file and write metadata.yaml."""
+        """Finish the file and write metadata.yaml; a file that failed before is left as it is."""
+        if self._failed:
+            return
         try:
             information = self._information()
             self._writer.add_metadata("rosbag2", {"serialized_metadata": _dump_yaml(information)})
             self._writer.finish()
-            self._file.close()
+            self._close_file()
             text = _dump_yaml({"rosbag2_bagfile_information": information})
             (self.directory / "metadata.yaml").write_text(text, encoding="utf-8")
         except OSError as error:
@@ -192,7 +197,14 @@ class RunWriter:
             "ros_distro": "jazzy",
         }
 
+    def _close_file(self) -> None:
+        if self._file is not None:
+            self._file.close()
+
     def _failure(self, error: OSError) -> LogError:
+        self._failed = True
+        with suppress(OSError):  # what is buffered fails once more; the descriptor is freed all the same
+            self._close_file()
         return LogError(self.directory, f"cannot be recorded to: {error.strerror}")
 
 

@@ -3,11 +3,14 @@
 import os
 import select
 import signal
-from types import FrameType
+from types import FrameType, TracebackType
+from typing import Self
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class StopRequest:
-    """Turns SIGINT, SIGTERM and SIGHUP into a flag, from its making on.
+    """Turns SIGINT, SIGTERM and SIGHUP into a flag for as long as its context lasts.
 
     A recording is finished however often the signal comes: under a launch, a terminal's Ctrl-C arrives
     twice. This module imports nothing slow, so that the flag is up before rclpy is imported.
@@ -15,18 +18,32 @@ class StopRequest:
 
     def __init__(self) -> None:
         self.requested = False
-        self._wake, wake_up = os.pipe()
-        for descriptor in (self._wake, wake_up):
-            os.set_blocking(descriptor, False)
-        signal.set_wakeup_fd(wake_up, warn_on_full_buffer=False)
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, self._request)
 
     def wait(self, seconds: float) -> bool:
         """Sleep for a time in s, or until the request comes; return whether it has."""
         if not self.requested:
             select.select([self._wake], [], [], max(seconds, 0.0))
         return self.requested
+
+    def __enter__(self) -> Self:
+        # A signal writes to the pipe, which ends a select; a flag alone would not end a sleep.
+        self._wake, self._alarm = os.pipe()
+        os.set_blocking(self._alarm, False)
+        self._former_wakeup = signal.set_wakeup_fd(self._alarm, warn_on_full_buffer=False)
+        self._former_handlers = {number: signal.signal(number, self._request) for number in _SIGNALS}
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        for number, handler in self._former_handlers.items():
+            signal.signal(number, handler)
+        signal.set_wakeup_fd(self._former_wakeup)
+        os.close(self._wake)
+        os.close(self._alarm)
 
     def _request(self, _number: int, _frame: FrameType | None) -> None:
         self.requested = True

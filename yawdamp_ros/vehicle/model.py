@@ -1,6 +1,7 @@
 """A combination as plain records: SI units, positions from the unit's own centre of gravity."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ class Vehicle:
             If a unit lacks a hitch it needs, which `load_vehicle` does not let through.
         """
         pairs = []
-        for towing, towed in zip(self.units, self.units[1:], strict=False):
+        for towing, towed in pairwise(self.units):
             if towing.rear_hitch is None or towed.front_hitch is None:
                 message = f"no hitch between {towing.name} and {towed.name}"
                 raise ValueError(message)

@@ -1,0 +1,156 @@
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import vehicles
+
+from yawdamp_ros import linear_model, load_vehicle
+from yawdamp_ros.stepping import Stepper
+from yawdamp_ros.vehicle import Axle, Unit, Vehicle
+
+CAR = Vehicle(
+    "car",
+    75 / 3.6,
+    (Unit("car", 1400.0, 2420.0, (Axle(1.14, 25000.0, steered=True), Axle(-1.33, 21000.0))),),
+)
+
+
+@pytest.mark.parametrize("step_size", [0.001, 0.01, 0.25])
+def test_held_steering_gives_the_closed_form_at_any_step_size(step_size: float) -> None:
+    stepper = Stepper(linear_model(CAR), step_size)
+    stepper.steer(0.1)
+    for step in range(1, round(5.0 / step_size) + 1):
+        stepper.advance()
+        time = step * step_size
+        fast, slow = math.exp(-1.974517 * time), math.exp(-0.983853 * time)
+        velocity = -13.09637 * fast + 24.46837 * slow - 11.37201
+        yaw_rate = -0.249566 * fast - 0.696155 * slow + 0.945720
+        # Printed to five and six decimals, the coefficients of a sum are off by half a digit each: the
+        # velocity's three do not even add up to 0 at the start, but to -1e-5.
+        assert stepper.state[0] == pytest.approx(velocity, abs=1.1e-5)
+        assert stepper.state[1] == pytest.approx(yaw_rate, abs=1e-6)
+
+
+def test_held_steering_gives_the_bicycles_exact_solution() -> None:
+    model = linear_model(CAR)
+    (a11, a12), (a21, a22) = model.state_matrix
+    b1, b2 = model.input_matrix
+    trace, determinant = a11 + a22, a11 * a22 - a12 * a21
+    root = math.sqrt(trace**2 / 4 - determinant)
+    slow, fast = trace / 2 + root, trace / 2 - root
+    steady_yaw_rate = 0.1 * (a21 * b1 - a11 * b2) / determinant
+    # r(0) = 0 and r'(0) = b2 delta fix the two exponentials.
+    slow_part = (0.1 * b2 + fast * steady_yaw_rate) / (slow - fast)
+    fast_part = -steady_yaw_rate - slow_part
+    stepper = Stepper(model, 0.001)
+    stepper.steer(0.1)
+    for step in range(1, 5001):
+        stepper.advance()
+        time = 0.001 * step
+        yaw_rate = steady_yaw_rate + slow_part * math.exp(slow * time) + fast_part * math.exp(fast * time)
+        yaw = (
+            steady_yaw_rate * time
+            + slow_part / slow * math.expm1(slow * time)
+            + fast_part / fast * math.expm1(fast * time)
+        )
+        assert stepper.state[1] == pytest.approx(yaw_rate, abs=1e-11)
+        if step % 1000 == 0:
+            assert stepper.sample().yaw[0] == pytest.approx(yaw, abs=1e-10)
+
+
+@given(vehicles(), st.integers(2, 20))
+def test_many_short_steps_are_one_long_step(vehicle: Vehicle, parts: int) -> None:
+    model = linear_model(vehicle)
+    long, short = Stepper(model, 0.05), Stepper(model, 0.05 / parts)
+    for stepper in (long, short):
+        stepper.steer(0.05)
+    long.advance()
+    for _ in range(parts):
+        short.advance()
+    np.testing.assert_allclose(short.state, long.state, rtol=1e-8, atol=1e-10)
+
+
+@given(vehicles(), st.floats(-0.3, 0.3))
+def test_steering_to_the_other_side_mirrors_everything(vehicle: Vehicle, angle: float) -> None:
+    left, right = (Stepper(linear_model(vehicle), 0.01) for _ in range(2))
+    one, other = left.run(30, lambda _: angle), right.run(30, lambda _: -angle)
+    for field in ("y", "yaw", "yaw_rate", "lateral_acceleration", "lateral_velocity", "articulation"):
+        np.testing.assert_array_equal(getattr(one, field), -getattr(other, field))
+    np.testing.assert_array_equal(one.x, other.x)
+
+
+@given(vehicles(min_units=2))
+def test_units_stay_coupled_at_their_hitches(vehicle: Vehicle) -> None:
+    sample = Stepper(linear_model(vehicle), 0.01).run(100, lambda step: 0.05 * math.sin(0.02 * step))
+    ends = []
+    for unit, x, y, yaw in zip(vehicle.units, sample.x, sample.y, sample.yaw, strict=True):
+        ends.append(
+            [
+                (x + hitch * math.cos(yaw), y + hitch * math.sin(yaw)) if hitch is not None else None
+                for hitch in (unit.front_hitch, unit.rear_hitch)
+            ]
+        )
+    for towing, towed in pairwise(ends):
+        np.testing.assert_allclose(towing[1], towed[0], atol=1e-9)
+
+
+def test_steering_left_yaws_left_and_curves_left() -> None:
+    sample = Stepper(linear_model(load_vehicle("interlink")), 0.001).run(2000, lambda _: 0.02)
+    assert (sample.yaw > 0.0).all()
+    assert (sample.yaw_rate > 0.0).all()
+    assert (sample.lateral_acceleration > 0.0).all()
+    assert sample.y[0] > 1.0
+    assert sample.articulation[0] > 0.0
+
+
+def test_a_steady_turn_is_a_circle_of_speed_over_yaw_rate() -> None:
+    stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
+    samples = [stepper.run(1000, lambda _: 0.02) for _ in range(60)]
+    settled = samples[20:]
+    points = np.array([[sample.x[0], sample.y[0]] for sample in settled])
+    # Centre by least squares of |p|^2 = 2 c.p + k.
+    design = np.column_stack([2.0 * points, np.ones(len(points))])
+    *centre, _ = np.linalg.lstsq(design, (points**2).sum(axis=1), rcond=None)[0]
+    radii = np.hypot(*(points - centre).T)
+    speed_over_ground = math.hypot(settled[-1].speed, settled[-1].lateral_velocity[0])
+    np.testing.assert_allclose(radii, speed_over_ground / settled[-1].yaw_rate[0], rtol=1e-5)
+
+
+def test_the_same_steering_gives_the_same_bits() -> None:
+    model = linear_model(load_vehicle("interlink"))
+    runs = [Stepper(model, 0.001).run(500, lambda step: 0.1 * math.sin(0.0015 * step)) for _ in range(2)]
+    for first, second in zip(*runs, strict=True):
+        np.testing.assert_array_equal(first, second)
+
+
+def test_how_samples_are_spaced_does_not_change_a_bit() -> None:
+    model = linear_model(load_vehicle("interlink"))
+
+    def steering(step: int) -> float:
+        return 0.1 * math.sin(0.0015 * step)
+
+    every, seldom = Stepper(model, 0.001), Stepper(model, 0.001)
+    for _ in range(500):
+        last = every.run(1, steering)
+    for first, second in zip(last[:-1], seldom.run(500, steering)[:-1], strict=True):
+        np.testing.assert_array_equal(first, second)
+
+
+def test_a_sample_holds_the_steering_in_force_from_its_instant_on() -> None:
+    model = linear_model(load_vehicle("single_vehicle"))
+    stepper = Stepper(model, 0.01)
+    first = stepper.run(0, lambda _: 0.1)
+    assert first.steering_angle == 0.1
+    assert first.yaw_rate[0] == 0.0
+    assert first.lateral_acceleration[0] == pytest.approx(0.1 * model.input_matrix[0])
+
+
+def test_steering_changes_are_told_with_the_step_at_which_they_took_effect() -> None:
+    stepper = Stepper(linear_model(load_vehicle("single_vehicle")), 0.01)
+    angles = {0: 0.0, 1: 0.0, 2: 0.1, 3: 0.1, 4: 0.2, 5: 0.0, 6: 0.0}
+    assert stepper.run(0, angles.__getitem__).steering_changes == ((0, 0.0),)
+    assert stepper.run(4, angles.__getitem__).steering_changes == ((2, 0.1), (4, 0.2))
+    assert stepper.run(2, angles.__getitem__).steering_changes == ((5, 0.0),)
