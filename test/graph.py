@@ -1,0 +1,129 @@
+"""A real ROS graph: this process on one side, the project's commands on the other."""
+
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import Float64
+
+PATIENCE = 30.0
+"""Seconds after which a process is taken to hang; nothing is expected to come near it."""
+_DOMAINS = itertools.count(1 + os.getpid() % 40 * 2)
+
+
+def until(condition: Callable[[], bool], what: str) -> None:
+    """Wait for a condition; fail, naming it, if it does not come."""
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < deadline, f"waited in vain for {what}"
+        time.sleep(0.01)
+
+
+class Graph:
+    """This process's node on a domain of its own, and the commands it starts there."""
+
+    def __init__(self, directory: Path) -> None:
+        self.directory = directory
+        self.received: dict[str, list[bytes]] = defaultdict(list)
+        self._types: dict[str, type] = {}
+        self._processes: list[subprocess.Popen[str]] = []
+        self._domain = next(_DOMAINS) % 100 + 1
+        self.environment = {
+            **os.environ,
+            "ROS_DOMAIN_ID": str(self._domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        }
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        self._context = rclpy.Context()
+        self._context.init(domain_id=self._domain)
+        self.node = rclpy.create_node("observer", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._spin, daemon=True)
+        self._thread.start()
+
+    def command(self, *arguments: str, under: Sequence[str] = ()) -> subprocess.Popen[str]:
+        """Start a command of the project, or one that executes it; its output is kept for `outcome`."""
+        process = subprocess.Popen(
+            [*under, sys.executable, "-m", "yawdamp_ros", *arguments],
+            cwd=self.directory,
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self._processes.append(process)
+        return process
+
+    def listen(self, topics: dict[str, type]) -> None:
+        """Keep every message of some topics, as it came."""
+        for topic, kind in topics.items():
+            self._types[topic] = kind
+            self.node.create_subscription(kind, topic, self.received[topic].append, 1000, raw=True)
+
+    def messages(self, topic: str) -> list[Any]:
+        """Messages of a topic so far."""
+        return [deserialize_message(data, self._types[topic]) for data in self.received[topic]]
+
+    def steering_publisher(self, topic: str = "/steering") -> Any:  # noqa: ANN401 - rclpy's Publisher
+        """A publisher of steering commands that somebody listens to."""
+        publisher = self.node.create_publisher(Float64, topic, 10)
+        until(lambda: publisher.get_subscription_count() > 0, f"a subscriber of {topic}")
+        return publisher
+
+    def publishers(self, topic: str) -> int:
+        """How many publishers a topic has."""
+        return int(self.node.count_publishers(topic))
+
+    def close(self) -> None:
+        """Leave the graph; nothing that was started stays behind."""
+        for process in self._processes:
+            if process.poll() is None:
+                process.kill()
+            process.communicate()
+        self._executor.shutdown()
+        self._context.try_shutdown()
+        self._thread.join()
+        self.node.destroy_node()
+
+    def _spin(self) -> None:
+        try:
+            self._executor.spin()
+        except ExternalShutdownException:
+            pass
+
+
+def outcome(process: subprocess.Popen[str]) -> tuple[int, str, str]:
+    """Exit status, standard output and standard error of a command, once it has ended."""
+    output, errors = process.communicate(timeout=PATIENCE)
+    return process.returncode, output, errors
+
+
+def stop(process: subprocess.Popen[str], number: int = signal.SIGINT) -> tuple[int, str, str]:
+    """Send a signal to a command and return its `outcome`."""
+    process.send_signal(number)
+    return outcome(process)
+
+
+def has_handler(process: subprocess.Popen[str], number: int) -> bool:
+    """Whether a process has installed a handler of its own for a signal."""
+    for line in Path(f"/proc/{process.pid}/status").read_text().splitlines():
+        if line.startswith("SigCgt:"):
+            return bool(int(line.split()[1], 16) >> (number - 1) & 1)
+    return False
+
+
+def stamps(messages: Sequence[Any]) -> list[int]:
+    """Stamps of messages in ns."""
+    return [message.header.stamp.sec * 10**9 + message.header.stamp.nanosec for message in messages]

@@ -1,0 +1,285 @@
+import math
+import random
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from graph import Graph, has_handler, outcome, stamps, stop, until
+from nav_msgs.msg import Odometry
+from rosbags.highlevel import AnyReader
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64
+
+from yawdamp_ros import linear_model, load_vehicle, simulate
+from yawdamp_ros.manoeuvres import LaneChange
+from yawdamp_ros.share import share_directory
+from yawdamp_ros.stepping import Sample, Stepper
+
+pytestmark = pytest.mark.graph
+
+UNITS = ("truck", "trailer_1", "trailer_2")
+OUTPUTS: dict[str, type] = {
+    **{f"/{unit}/imu": Imu for unit in UNITS},
+    **{f"/{unit}/odom": Odometry for unit in UNITS},
+    **{
+        f"/{unit}/{scalar}": Float64
+        for unit in UNITS
+        for scalar in ("yaw", "yaw_rate", "lateral_acceleration")
+    },
+    "/joint_states": JointState,
+}
+PERIOD = 10_000_000
+
+
+def run_directory(directory: Path) -> Path:
+    (found,) = (directory / "runs").iterdir()
+    return found
+
+
+def recorded(run: Path) -> dict[str, list[tuple[int, Any]]]:
+    """Messages of a run by topic, with their log times."""
+    messages: dict[str, list[tuple[int, Any]]] = {}
+    with AnyReader([run]) as reader:
+        for connection, log_time, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            messages.setdefault(connection.topic, []).append((log_time, message))
+    return messages
+
+
+def stepped_again(run: Path, samples: int) -> list[Sample]:
+    """What the model does under the steering that a run recorded as applied."""
+    steering = recorded(run)["/steering"]
+    start = steering[0][0]
+    angles = {(log_time - start) // 1_000_000: message.data for log_time, message in steering}
+    held = [0.0]
+
+    def at(step: int) -> float:
+        held[0] = angles.get(step, held[0])
+        return held[0]
+
+    stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
+    return [stepper.run(10 if index else 0, at) for index in range(samples)]
+
+
+def yaw_of(orientation: Any) -> float:  # noqa: ANN401 - a generated message
+    return 2.0 * math.atan2(orientation.z, orientation.w)
+
+
+def test_a_manoeuvre_arrives_over_the_graph_as_the_model_has_it(graph: Graph) -> None:
+    graph.listen(OUTPUTS)
+    process = graph.command("sim", "--manoeuvre", "lane_change", "--start", "0.5", "--duration", "3")
+    status, output, errors = outcome(process)
+    assert status == 0, errors
+    expected = simulate(load_vehicle("interlink"), LaneChange(start=0.5), 3.0, sample_period=0.01)
+    run = run_directory(graph.directory)
+    start = recorded(run)["/truck/imu"][0][0]
+    for index, unit in enumerate(UNITS):
+        imu, odom = graph.messages(f"/{unit}/imu"), graph.messages(f"/{unit}/odom")
+        # What came before the two sides had found each other is not there; after that, all is.
+        first = (stamps(imu)[0] - start) // PERIOD
+        assert first < 150
+        assert stamps(imu) == [start + PERIOD * sample for sample in range(first, 301)]
+        assert set(stamps(odom)) <= {start + PERIOD * sample for sample in range(301)}
+        yaw = expected.yaw[first:, index]
+        assert [message.angular_velocity.z for message in imu] == list(expected.yaw_rate[first:, index])
+        assert [message.linear_acceleration.y for message in imu] == list(
+            expected.lateral_acceleration[first:, index]
+        )
+        np.testing.assert_allclose([yaw_of(message.orientation) for message in imu], yaw, atol=1e-12)
+        assert {message.linear_acceleration.z for message in imu} == {9.80665}
+        assert {message.header.frame_id for message in imu} == {unit}
+        assert {(message.header.frame_id, message.child_frame_id) for message in odom} == {("odom", unit)}
+        assert {message.twist.twist.linear.x for message in odom} == {load_vehicle("interlink").speed}
+        count = len(odom)
+        assert [message.pose.pose.position.x for message in odom] == list(expected.x[-count:, index])
+        assert [message.pose.pose.position.y for message in odom] == list(expected.y[-count:, index])
+        scalars = [message.data for message in graph.messages(f"/{unit}/yaw")]
+        assert scalars == list(expected.yaw[-len(scalars) :, index])
+    joints = graph.messages("/joint_states")
+    assert list(joints[0].name) == ["steering", "articulation_1", "articulation_2"]
+    angles = np.array([message.position for message in joints])
+    np.testing.assert_array_equal(angles[:, 0], expected.steering_angle[-len(joints) :])
+    np.testing.assert_array_equal(angles[:, 1:], expected.articulation[-len(joints) :])
+    assert "trailer_2" in output
+    assert f"run: {run.relative_to(graph.directory)}" in output
+
+
+def test_steering_from_the_graph_is_applied_recorded_and_stepped_as_recorded(graph: Graph) -> None:
+    graph.listen(OUTPUTS)
+    process = graph.command("sim")
+    publisher = graph.steering_publisher()
+    for index in range(100):
+        publisher.publish(Float64(data=0.05 * math.sin(0.1 * index)))
+        time.sleep(0.01)
+    status, _, errors = stop(process)
+    assert status == 0, errors
+    run = run_directory(graph.directory)
+    messages = recorded(run)
+    count = len(messages["/truck/imu"])
+    samples = stepped_again(run, count)
+    assert max(abs(message.data) for _, message in messages["/steering"]) == pytest.approx(0.05, abs=1e-4)
+    assert len({message.data for _, message in messages["/steering"]}) > 50
+    for index, unit in enumerate(UNITS):
+        assert [message.data for _, message in messages[f"/{unit}/lateral_acceleration"]] == [
+            sample.lateral_acceleration[index] for sample in samples
+        ]
+        assert [message.data for _, message in messages[f"/{unit}/yaw"]] == [
+            sample.yaw[index] for sample in samples
+        ]
+    for topic in OUTPUTS:
+        assert len(messages[topic]) == count
+
+
+def test_bad_commands_are_refused_or_clamped_and_said(graph: Graph) -> None:
+    graph.listen({"/joint_states": JointState})
+    process = graph.command("sim", "--ros-args", "-p", "steering_ratio:=2.0", "-p", "max_steering_angle:=0.3")
+    publisher = graph.steering_publisher()
+
+    def angle() -> float:
+        return float(graph.messages("/joint_states")[-1].position[0])
+
+    until(lambda: bool(graph.received["/joint_states"]), "a sample")
+    publisher.publish(Float64(data=0.2))
+    until(lambda: angle() == 0.1, "0.2 rad of the hand wheel to become 0.1 rad")
+    for bad in (math.nan, math.inf, -math.inf):
+        publisher.publish(Float64(data=bad))
+    publisher.publish(Float64(data=-7.0))
+    until(lambda: angle() == -0.3, "the clamped angle")
+    status, _, errors = stop(process)
+    assert status == 0
+    assert "not a finite angle" in errors
+    assert "clamped to max_steering_angle" in errors
+    applied = [message.data for _, message in recorded(run_directory(graph.directory))["/steering"]]
+    assert applied == [0.0, 0.1, -0.3]
+
+
+@pytest.mark.parametrize("reaction, last", [("hold", 0.1), ("zero", 0.0)])
+def test_silence_holds_or_zeroes_as_asked(graph: Graph, reaction: str, last: float) -> None:
+    parameters = ["-p", f"on_steering_timeout:={reaction}", "-p", "steering_timeout:=0.2"]
+    process = graph.command("sim", "--ros-args", *parameters)
+    graph.listen({"/joint_states": JointState})
+    graph.steering_publisher().publish(Float64(data=0.1))
+    until(
+        lambda: any(message.position[0] == 0.1 for message in graph.messages("/joint_states")[-5:]),
+        "the command to be applied",
+    )
+    heard = len(graph.received["/joint_states"])
+    until(lambda: len(graph.received["/joint_states"]) > heard + 50, "half a second more")
+    assert graph.messages("/joint_states")[-1].position[0] == last
+    assert stop(process)[0] == 0
+    steering = recorded(run_directory(graph.directory))["/steering"]
+    if reaction == "zero":
+        (_, (on, _), (off, _)) = steering
+        # The command is in force one step after the last it could not change any more.
+        assert 200_000_000 <= off - on <= 211_000_000
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_at_any_moment_ends_in_good_order(graph: Graph, number: int) -> None:
+    moments = random.Random(number)  # noqa: S311 - any moments will do, the same ones each time
+    for delay in [0.0, *(moments.uniform(0.0, 1.5) for _ in range(5))]:
+        directory = graph.directory / f"{delay:.6f}"
+        process = graph.command("sim", "--output", str(directory))
+        # Before the project's first line, a signal meets the bare interpreter; SIGHUP's handler comes last.
+        until(lambda process=process: has_handler(process, signal.SIGHUP), "the handlers")
+        time.sleep(delay)
+        process.send_signal(number)
+        time.sleep(0.01)
+        status, _, errors = stop(process, number)
+        assert status == 0, (delay, errors)
+        assert "Traceback" not in errors
+        assert "Exception" not in errors
+        if directory.exists():
+            assert recorded(directory) is not None
+            assert (directory / "metadata.yaml").is_file()
+
+
+def test_time_that_was_lost_is_counted_and_samples_stay_on_the_grid(graph: Graph) -> None:
+    graph.listen({"/truck/imu": Imu})
+    process = graph.command("sim")
+    until(lambda: len(graph.received["/truck/imu"]) > 20, "some samples")
+    process.send_signal(signal.SIGSTOP)
+    time.sleep(1.0)
+    process.send_signal(signal.SIGCONT)
+    before = len(graph.received["/truck/imu"])
+    until(lambda: len(graph.received["/truck/imu"]) > before + 50, "more samples")
+    status, output, errors = stop(process)
+    assert status == 0
+    assert "steps given up so far" in errors
+    assert "steps given up" in output
+    got = stamps([message for _, message in recorded(run_directory(graph.directory))["/truck/imu"]])
+    assert np.diff(got).tolist() == [PERIOD] * (len(got) - 1)
+
+
+def test_a_namespace_moves_every_topic(graph: Graph) -> None:
+    graph.listen({"/left/trailer_2/imu": Imu})
+    process = graph.command("sim", "--ros-args", "-r", "__ns:=/left")
+    graph.steering_publisher("/left/steering")
+    until(lambda: len(graph.received["/left/trailer_2/imu"]) > 5, "samples in the namespace")
+    names = {name for name, _ in graph.node.get_topic_names_and_types()}
+    outside = {name for name in names if not name.startswith("/left/")}
+    assert outside <= {"/rosout", "/parameter_events"}
+    assert stop(process)[0] == 0
+    assert set(recorded(run_directory(graph.directory))) == {
+        f"/left{topic}" for topic in ["/steering", *OUTPUTS]
+    }
+
+
+def test_what_is_not_wanted_is_neither_published_nor_recorded(graph: Graph) -> None:
+    process = graph.command(
+        "sim", "--no-record", "--duration", "1", "--ros-args", "-p", "publish_scalars:=false"
+    )
+    until(lambda: graph.publishers("/truck/imu") == 1, "the node")
+    assert graph.publishers("/truck/yaw") == 0
+    status, output, _ = outcome(process)
+    assert status == 0
+    assert "run:" not in output
+    assert list(graph.directory.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (["--vehicle", "lorry"], "lorry: no such vehicle"),
+        (["--manoeuvre", "step", "--cycles", "2"], "cycles: manoeuvre step does not use it"),
+        (["--output", "."], "cannot be recorded to: File exists"),
+        (
+            ["--ros-args", "-p", "publish_rate:=50"],
+            "parameter publish_rate: 50: expected a double, write 50.0",
+        ),
+        (["--ros-args", "-p", "publish_rate:=-1.0"], "parameter publish_rate: -1.0: expected a number from"),
+        (["--ros-args", "-p", "publsh_rate:=50.0"], "no such parameter; did you mean publish_rate?"),
+        (["--ros-args", "-p", "model:=exact"], "parameter model: 'exact': expected one of consistent"),
+        (["--ros-args", "-p", "step_size:=0.003"], "step_size: 0.003 s: expected a whole number of steps"),
+        (["--ros-args", "-p", "amplitude:=0.1"], "parameter amplitude: there is no manoeuvre to use it"),
+        (["--ros-args", "-p", "vehicle_overrides:=['units.1.mass=0']"], "units.1.mass: 0: expected a mass"),
+    ],
+)
+def test_wrong_use_is_one_line_and_status_2(graph: Graph, arguments: list[str], message: str) -> None:
+    status, output, errors = outcome(graph.command("sim", *arguments))
+    assert (status, output) == (2, "")
+    assert message in errors
+    assert errors.count("\n") == 1
+
+
+def test_parameters_come_from_the_file_that_ships_with_the_package(graph: Graph) -> None:
+    file = share_directory() / "config" / "sim.yaml"
+    process = graph.command("sim", "--duration", "0.5", "--ros-args", "--params-file", str(file))
+    status, output, errors = outcome(process)
+    assert status == 0, errors
+    assert "interlink" in output
+
+
+def test_a_disk_that_fills_does_not_stop_the_simulation(graph: Graph) -> None:
+    limited = ("bash", "-c", 'ulimit -f 40; trap "" XFSZ; exec "$@"', "bash")
+    process = graph.command("sim", under=limited)
+    graph.listen({"/truck/imu": Imu})
+    until(lambda: len(graph.received["/truck/imu"]) > 300, "three seconds of samples")
+    status, output, errors = stop(process)
+    assert status == 1
+    assert "messages not recorded, the simulation goes on" in errors
+    assert "Traceback" not in errors
+    assert "truck" in output
