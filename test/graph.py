@@ -9,6 +9,7 @@ import threading
 import time
 from collections import defaultdict
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,7 @@ def until(condition: Callable[[], bool], what: str) -> None:
 
 
 class Graph:
-    """This process's node on a domain of its own, and the commands it starts there."""
+    """A node of this process on a domain of its own, and the commands it starts there."""
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory
@@ -98,10 +99,8 @@ class Graph:
         self.node.destroy_node()
 
     def _spin(self) -> None:
-        try:
+        with suppress(ExternalShutdownException):
             self._executor.spin()
-        except ExternalShutdownException:
-            pass
 
 
 def outcome(process: subprocess.Popen[str]) -> tuple[int, str, str]:

@@ -2,66 +2,20 @@ import math
 import random
 import signal
 import time
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from graph import Graph, has_handler, outcome, stamps, stop, until
-from nav_msgs.msg import Odometry
-from rosbags.highlevel import AnyReader
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 
-from yawdamp_ros import linear_model, load_vehicle, simulate
+from runs import OUTPUTS, PERIOD, UNITS, recorded, run_directory, stepped_again
+from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.share import share_directory
-from yawdamp_ros.stepping import Sample, Stepper
 
 pytestmark = pytest.mark.graph
-
-UNITS = ("truck", "trailer_1", "trailer_2")
-OUTPUTS: dict[str, type] = {
-    **{f"/{unit}/imu": Imu for unit in UNITS},
-    **{f"/{unit}/odom": Odometry for unit in UNITS},
-    **{
-        f"/{unit}/{scalar}": Float64
-        for unit in UNITS
-        for scalar in ("yaw", "yaw_rate", "lateral_acceleration")
-    },
-    "/joint_states": JointState,
-}
-PERIOD = 10_000_000
-
-
-def run_directory(directory: Path) -> Path:
-    (found,) = (directory / "runs").iterdir()
-    return found
-
-
-def recorded(run: Path) -> dict[str, list[tuple[int, Any]]]:
-    """Messages of a run by topic, with their log times."""
-    messages: dict[str, list[tuple[int, Any]]] = {}
-    with AnyReader([run]) as reader:
-        for connection, log_time, data in reader.messages():
-            message = reader.deserialize(data, connection.msgtype)
-            messages.setdefault(connection.topic, []).append((log_time, message))
-    return messages
-
-
-def stepped_again(run: Path, samples: int) -> list[Sample]:
-    """What the model does under the steering that a run recorded as applied."""
-    steering = recorded(run)["/steering"]
-    start = steering[0][0]
-    angles = {(log_time - start) // 1_000_000: message.data for log_time, message in steering}
-    held = [0.0]
-
-    def at(step: int) -> float:
-        held[0] = angles.get(step, held[0])
-        return held[0]
-
-    stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
-    return [stepper.run(10 if index else 0, at) for index in range(samples)]
 
 
 def yaw_of(orientation: Any) -> float:  # noqa: ANN401 - a generated message
@@ -119,7 +73,7 @@ def test_steering_from_the_graph_is_applied_recorded_and_stepped_as_recorded(gra
     run = run_directory(graph.directory)
     messages = recorded(run)
     count = len(messages["/truck/imu"])
-    samples = stepped_again(run, count)
+    samples = stepped_again(messages["/steering"], count)
     assert max(abs(message.data) for _, message in messages["/steering"]) == pytest.approx(0.05, abs=1e-4)
     assert len({message.data for _, message in messages["/steering"]}) > 50
     for index, unit in enumerate(UNITS):

@@ -7,8 +7,8 @@ is on the wire.
 import json
 import os
 import re
-import sys
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
@@ -82,10 +82,13 @@ def _dependencies(text: str, package: str) -> list[str]:
 
 
 def _message_file(package: str, name: str) -> Path:
-    # A ROS from PyPI lies below the interpreter's prefix, and sets no AMENT_PREFIX_PATH.
-    prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
-    for prefix in filter(None, prefixes):
-        path = Path(prefix, "share", package, "msg", f"{name}.msg")
+    # A ROS from PyPI sets no AMENT_PREFIX_PATH, but its Python modules lie below its prefix.
+    prefixes = [Path(entry) for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+    module = find_spec(package)
+    if module is not None and module.origin is not None:
+        prefixes += Path(module.origin).parents
+    for prefix in prefixes:
+        path = prefix.joinpath("share", package, "msg", f"{name}.msg")
         if path.is_file():
             return path
     message_type = f"{package}/msg/{name}"

@@ -1,0 +1,56 @@
+"""What tests know of recorded runs."""
+
+from pathlib import Path
+from typing import Any
+
+from nav_msgs.msg import Odometry
+from rosbags.highlevel import AnyReader
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64
+
+from yawdamp_ros import linear_model, load_vehicle
+from yawdamp_ros.stepping import Sample, Stepper
+
+UNITS = ("truck", "trailer_1", "trailer_2")
+OUTPUTS: dict[str, type] = {
+    **{f"/{unit}/imu": Imu for unit in UNITS},
+    **{f"/{unit}/odom": Odometry for unit in UNITS},
+    **{
+        f"/{unit}/{scalar}": Float64
+        for unit in UNITS
+        for scalar in ("yaw", "yaw_rate", "lateral_acceleration")
+    },
+    "/joint_states": JointState,
+}
+PERIOD = 10_000_000
+"""Of samples at the default rate, in ns."""
+
+
+def run_directory(directory: Path) -> Path:
+    """The only run below a working directory."""
+    (found,) = (directory / "runs").iterdir()
+    return found
+
+
+def recorded(run: Path) -> dict[str, list[tuple[int, Any]]]:
+    """Messages of a run by topic, with their log times."""
+    messages: dict[str, list[tuple[int, Any]]] = {}
+    with AnyReader([run]) as reader:
+        for connection, log_time, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            messages.setdefault(connection.topic, []).append((log_time, message))
+    return messages
+
+
+def stepped_again(steering: list[tuple[int, Any]], samples: int) -> list[Sample]:
+    """What the interlink does under the steering that a run recorded as applied."""
+    start = steering[0][0]
+    angles = {(log_time - start) // 1_000_000: message.data for log_time, message in steering}
+    held = [0.0]
+
+    def at(step: int) -> float:
+        held[0] = angles.get(step, held[0])
+        return held[0]
+
+    stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
+    return [stepper.run(10 if index else 0, at) for index in range(samples)]
