@@ -1,0 +1,74 @@
+"""What the README says is what the project does."""
+
+import math
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+from ruamel.yaml import YAML
+
+from yawdamp_ros import load_vehicle, simulate
+from yawdamp_ros.cli.dispatch import COMMANDS
+from yawdamp_ros.manoeuvres import LaneChange
+from yawdamp_ros.nodes.parameters import SimParameters
+from yawdamp_ros.share import share_directory
+from yawdamp_ros.vehicle import builtin_vehicles
+from yawdamp_ros.vehicle.load import parse_vehicle
+
+README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+
+
+def parameter_rows() -> list[str]:
+    defaults = SimParameters()
+    rows = []
+    for declared in fields(SimParameters):
+        default = str(getattr(defaults, declared.name)).lower() or '""'
+        described = declared.metadata["description"]
+        if declared.metadata["choices"]:
+            described += f" ({', '.join(declared.metadata['choices'])})"
+        rows.append(f"| `{declared.name}` | {default} | {described} |")
+    return rows
+
+
+def test_the_table_of_parameters_is_that_of_the_declarations() -> None:
+    table = README.partition("| parameter | default | |\n|---|---|---|\n")[2].partition("\n\n")[0]
+    assert table.splitlines() == parameter_rows()
+
+
+def test_the_parameter_file_holds_every_parameter_with_its_default() -> None:
+    file = YAML(typ="safe", pure=True).load(share_directory() / "config" / "sim.yaml")
+    given = file["yawdamp_sim"]["ros__parameters"]
+    defaults = {declared.name: getattr(SimParameters(), declared.name) for declared in fields(SimParameters)}
+    assert list(given) == list(defaults)
+    for name, default in defaults.items():
+        both_nan = isinstance(default, float) and math.isnan(default) and math.isnan(given[name])
+        assert both_nan or (given[name], type(given[name])) == (default, type(default)), name
+
+
+def test_the_peaks_shown_are_those_of_the_run() -> None:
+    response = simulate(load_vehicle("interlink"), LaneChange(), 15.0, sample_period=0.01)
+    for index, unit in enumerate(response.unit_names):
+        yaw, rate, acceleration = (
+            np.abs(values[:, index]).max()
+            for values in (response.yaw, response.yaw_rate, response.lateral_acceleration)
+        )
+        assert re.search(rf"│ {unit} +│ +{yaw:.4f} │ +{rate:.4f} │ +{acceleration:.3f} │", README)
+
+
+@pytest.mark.parametrize("name", [*COMMANDS, *builtin_vehicles()])
+def test_every_command_and_builtin_is_named(name: str) -> None:
+    assert f"`{name}`" in README or f"`{name} " in README
+
+
+def test_the_vehicle_shown_is_valid() -> None:
+    (shown,) = re.findall(r"```yaml\n(.*?)```", README, re.DOTALL)
+    assert parse_vehicle(shown, "README.md").unit_names == ("truck", "trailer")
+
+
+def test_the_library_example_runs() -> None:
+    (shown,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    scope: dict[str, object] = {}
+    exec(shown, scope)  # noqa: S102 - the README's own lines
+    assert {"model", "response"} <= set(scope)
