@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import rclpy
+from rcl_interfaces.srv import SetParameters
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import Float64
 
@@ -86,6 +88,20 @@ class Graph:
     def publishers(self, topic: str) -> int:
         """How many publishers a topic has."""
         return int(self.node.count_publishers(topic))
+
+    def call(self, service: str, kind: Any, request: Any) -> Any:  # noqa: ANN401 - generated messages
+        """Call a service and return its answer."""
+        client = self.node.create_client(kind, service)
+        until(client.service_is_ready, service)
+        future = client.call_async(request)
+        until(future.done, f"an answer of {service}")
+        return future.result()
+
+    def set_parameter(self, node: str, name: str, value: float) -> Any:  # noqa: ANN401 - a generated message
+        """Set a parameter of a node and return what it says."""
+        parameter = Parameter(name, value=value).to_parameter_msg()
+        request = SetParameters.Request(parameters=[parameter])
+        return self.call(f"{node}/set_parameters", SetParameters, request).results[0]
 
     def close(self) -> None:
         """Leave the graph; nothing that was started stays behind."""

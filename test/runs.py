@@ -46,11 +46,9 @@ def stepped_again(steering: list[tuple[int, Any]], samples: int) -> list[Sample]
     """What the interlink does under the steering that a run recorded as applied."""
     start = steering[0][0]
     angles = {(log_time - start) // 1_000_000: message.data for log_time, message in steering}
-    held = [0.0]
 
-    def at(step: int) -> float:
-        held[0] = angles.get(step, held[0])
-        return held[0]
+    def drive(stepper: Stepper) -> None:
+        stepper.steer(angles.get(stepper.step, stepper.steering_angle))
 
     stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
-    return [stepper.run(10 if index else 0, at) for index in range(samples)]
+    return [stepper.run(10 if index else 0, drive) for index in range(samples)]

@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 from graph import Graph, has_handler, outcome, stamps, stop, until
+from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
 
 from runs import OUTPUTS, PERIOD, UNITS, recorded, run_directory, stepped_again
 from yawdamp_ros import load_vehicle, simulate
@@ -178,7 +180,7 @@ def test_a_namespace_moves_every_topic(graph: Graph) -> None:
     assert outside <= {"/rosout", "/parameter_events"}
     assert stop(process)[0] == 0
     assert set(recorded(run_directory(graph.directory))) == {
-        f"/left{topic}" for topic in ["/steering", *OUTPUTS]
+        f"/left{topic}" for topic in ["/steering", "/speed", *OUTPUTS]
     }
 
 
@@ -237,3 +239,54 @@ def test_a_disk_that_fills_does_not_stop_the_simulation(graph: Graph) -> None:
     assert "messages not recorded, the simulation goes on" in errors
     assert "Traceback" not in errors
     assert "truck" in output
+
+
+def test_pause_stops_time_step_takes_one_period_and_resume_goes_on(graph: Graph) -> None:
+    graph.listen({"/truck/imu": Imu})
+    process = graph.command("sim")
+    until(lambda: len(graph.received["/truck/imu"]) > 20, "some samples")
+    assert not graph.call("/yawdamp_sim/step", Trigger, Trigger.Request()).success
+    assert graph.call("/yawdamp_sim/pause", SetBool, SetBool.Request(data=True)).success
+    time.sleep(0.5)  # whatever was under way has arrived
+    still = len(graph.received["/truck/imu"])
+    time.sleep(0.5)
+    assert len(graph.received["/truck/imu"]) == still
+    for index in range(1, 4):
+        assert graph.call("/yawdamp_sim/step", Trigger, Trigger.Request()).success
+        until(lambda index=index: len(graph.received["/truck/imu"]) == still + index, "one sample more")
+    assert graph.call("/yawdamp_sim/pause", SetBool, SetBool.Request(data=False)).success
+    until(lambda: len(graph.received["/truck/imu"]) > still + 20, "more samples")
+    status, output, errors = stop(process)
+    assert status == 0, errors
+    assert "given up" not in output
+    assert np.diff(stamps(graph.messages("/truck/imu"))).tolist() == [PERIOD] * (
+        len(graph.received["/truck/imu"]) - 1
+    )
+
+
+def test_a_reset_returns_the_truck_to_rest_and_time_goes_on(graph: Graph) -> None:
+    graph.listen({"/truck/odom": Odometry})
+    process = graph.command("sim", "--manoeuvre", "step", "--start", "0")
+    until(lambda: len(graph.received["/truck/odom"]) > 100, "a second of samples")
+    assert graph.call("/yawdamp_sim/reset", Trigger, Trigger.Request()).success
+    until(lambda: graph.messages("/truck/odom")[-1].pose.pose.position.x < 5.0, "the truck at the origin")
+    assert stop(process)[0] == 0
+    run = recorded(run_directory(graph.directory))
+    ((reset, _),) = run["/reset"]
+    after = [message for log_time, message in run["/truck/odom"] if log_time >= reset]
+    assert after[0].pose.pose.position.x < 0.25
+    assert all(np.diff([log_time for log_time, _ in run["/truck/odom"]]) == PERIOD)
+
+
+def test_speed_can_change_while_running_and_nothing_else(graph: Graph) -> None:
+    graph.listen({"/truck/odom": Odometry})
+    process = graph.command("sim")
+    until(lambda: len(graph.received["/truck/odom"]) > 20, "some samples")
+    assert graph.set_parameter("/yawdamp_sim", "speed", 15.0).successful
+    until(lambda: graph.messages("/truck/odom")[-1].twist.twist.linear.x == 15.0, "the new speed")
+    assert not graph.set_parameter("/yawdamp_sim", "speed", -1.0).successful
+    assert not graph.set_parameter("/yawdamp_sim", "speed", 500.0).successful
+    assert not graph.set_parameter("/yawdamp_sim", "step_size", 0.01).successful
+    assert stop(process)[0] == 0
+    speeds = [message.data for _, message in recorded(run_directory(graph.directory))["/speed"]]
+    assert speeds == [load_vehicle("interlink").speed, 15.0]

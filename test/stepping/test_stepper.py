@@ -1,4 +1,5 @@
 import math
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -10,6 +11,12 @@ from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.stepping import Stepper
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle
+
+
+def steering(angle: Callable[[int], float]) -> Callable[[Stepper], None]:
+    """Drive by a steer angle that depends on the step."""
+    return lambda stepper: stepper.steer(angle(stepper.step))
+
 
 CAR = Vehicle(
     "car",
@@ -76,7 +83,7 @@ def test_many_short_steps_are_one_long_step(vehicle: Vehicle, parts: int) -> Non
 @given(vehicles(), st.floats(-0.3, 0.3))
 def test_steering_to_the_other_side_mirrors_everything(vehicle: Vehicle, angle: float) -> None:
     left, right = (Stepper(linear_model(vehicle), 0.01) for _ in range(2))
-    one, other = left.run(30, lambda _: angle), right.run(30, lambda _: -angle)
+    one, other = left.run(30, steering(lambda _: angle)), right.run(30, steering(lambda _: -angle))
     for field in ("y", "yaw", "yaw_rate", "lateral_acceleration", "lateral_velocity", "articulation"):
         np.testing.assert_array_equal(getattr(one, field), -getattr(other, field))
     np.testing.assert_array_equal(one.x, other.x)
@@ -84,7 +91,9 @@ def test_steering_to_the_other_side_mirrors_everything(vehicle: Vehicle, angle: 
 
 @given(vehicles(min_units=2))
 def test_units_stay_coupled_at_their_hitches(vehicle: Vehicle) -> None:
-    sample = Stepper(linear_model(vehicle), 0.01).run(100, lambda step: 0.05 * math.sin(0.02 * step))
+    sample = Stepper(linear_model(vehicle), 0.01).run(
+        100, steering(lambda step: 0.05 * math.sin(0.02 * step))
+    )
     ends = []
     for unit, x, y, yaw in zip(vehicle.units, sample.x, sample.y, sample.yaw, strict=True):
         ends.append(
@@ -98,7 +107,7 @@ def test_units_stay_coupled_at_their_hitches(vehicle: Vehicle) -> None:
 
 
 def test_steering_left_yaws_left_and_curves_left() -> None:
-    sample = Stepper(linear_model(load_vehicle("interlink")), 0.001).run(2000, lambda _: 0.02)
+    sample = Stepper(linear_model(load_vehicle("interlink")), 0.001).run(2000, steering(lambda _: 0.02))
     assert (sample.yaw > 0.0).all()
     assert (sample.yaw_rate > 0.0).all()
     assert (sample.lateral_acceleration > 0.0).all()
@@ -108,7 +117,7 @@ def test_steering_left_yaws_left_and_curves_left() -> None:
 
 def test_a_steady_turn_is_a_circle_of_speed_over_yaw_rate() -> None:
     stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
-    samples = [stepper.run(1000, lambda _: 0.02) for _ in range(60)]
+    samples = [stepper.run(1000, steering(lambda _: 0.02)) for _ in range(60)]
     settled = samples[20:]
     points = np.array([[sample.x[0], sample.y[0]] for sample in settled])
     # Centre by least squares of |p|^2 = 2 c.p + k.
@@ -121,7 +130,9 @@ def test_a_steady_turn_is_a_circle_of_speed_over_yaw_rate() -> None:
 
 def test_the_same_steering_gives_the_same_bits() -> None:
     model = linear_model(load_vehicle("interlink"))
-    runs = [Stepper(model, 0.001).run(500, lambda step: 0.1 * math.sin(0.0015 * step)) for _ in range(2)]
+    runs = [
+        Stepper(model, 0.001).run(500, steering(lambda step: 0.1 * math.sin(0.0015 * step))) for _ in range(2)
+    ]
     for first, second in zip(*runs, strict=True):
         np.testing.assert_array_equal(first, second)
 
@@ -129,28 +140,90 @@ def test_the_same_steering_gives_the_same_bits() -> None:
 def test_how_samples_are_spaced_does_not_change_a_bit() -> None:
     model = linear_model(load_vehicle("interlink"))
 
-    def steering(step: int) -> float:
-        return 0.1 * math.sin(0.0015 * step)
-
+    drive = steering(lambda step: 0.1 * math.sin(0.0015 * step))
     every, seldom = Stepper(model, 0.001), Stepper(model, 0.001)
     for _ in range(500):
-        last = every.run(1, steering)
-    for first, second in zip(last[:-1], seldom.run(500, steering)[:-1], strict=True):
+        last = every.run(1, drive)
+    for first, second in zip(last[:-1], seldom.run(500, drive)[:-1], strict=True):
         np.testing.assert_array_equal(first, second)
 
 
 def test_a_sample_holds_the_steering_in_force_from_its_instant_on() -> None:
     model = linear_model(load_vehicle("single_vehicle"))
     stepper = Stepper(model, 0.01)
-    first = stepper.run(0, lambda _: 0.1)
+    first = stepper.run(0, steering(lambda _: 0.1))
     assert first.steering_angle == 0.1
     assert first.yaw_rate[0] == 0.0
     assert first.lateral_acceleration[0] == pytest.approx(0.1 * model.input_matrix[0])
 
 
-def test_steering_changes_are_told_with_the_step_at_which_they_took_effect() -> None:
+def test_inputs_are_told_with_the_step_at_which_they_took_effect() -> None:
     stepper = Stepper(linear_model(load_vehicle("single_vehicle")), 0.01)
     angles = {0: 0.0, 1: 0.0, 2: 0.1, 3: 0.1, 4: 0.2, 5: 0.0, 6: 0.0}
-    assert stepper.run(0, angles.__getitem__).steering_changes == ((0, 0.0),)
-    assert stepper.run(4, angles.__getitem__).steering_changes == ((2, 0.1), (4, 0.2))
-    assert stepper.run(2, angles.__getitem__).steering_changes == ((5, 0.0),)
+    drive = steering(angles.__getitem__)
+    assert stepper.run(0, drive).inputs == ((0, "speed", 20.0), (0, "steering", 0.0))
+    assert stepper.run(4, drive).inputs == ((2, "steering", 0.1), (4, "steering", 0.2))
+    assert stepper.run(2, drive).inputs == ((5, "steering", 0.0),)
+
+
+def test_of_two_inputs_at_one_step_only_the_last_is_told() -> None:
+    stepper = Stepper(linear_model(load_vehicle("single_vehicle")), 0.01)
+    stepper.steer(0.1)
+    stepper.steer(0.2)
+    assert stepper.sample().inputs == ((0, "speed", 20.0), (0, "steering", 0.2))
+
+
+def test_another_speed_is_another_model_with_the_same_state() -> None:
+    vehicle = load_vehicle("interlink")
+    stepper = Stepper(linear_model(vehicle), 0.001)
+    stepper.run(500, steering(lambda _: 0.05))
+    state = stepper.state
+    stepper.change_speed(15.0)
+    np.testing.assert_array_equal(stepper.state, state)
+    sample = stepper.run(20_000, steering(lambda _: 0.05))
+    settled = Stepper(linear_model(vehicle, 15.0), 0.001).run(20_000, steering(lambda _: 0.05))
+    np.testing.assert_allclose(sample.yaw_rate, settled.yaw_rate, rtol=1e-9)
+    assert sample.speed == 15.0
+    assert (500, "speed", 15.0) in sample.inputs
+
+
+def test_a_reset_returns_to_rest_at_the_origin_and_time_goes_on() -> None:
+    model = linear_model(load_vehicle("interlink"))
+    stepper = Stepper(model, 0.001)
+    stepper.run(700, steering(lambda _: 0.05))
+    stepper.reset()
+    again = stepper.run(300, steering(lambda _: 0.05))
+    fresh = Stepper(model, 0.001)
+    fresh.steer(0.05)
+    anew = fresh.run(300, steering(lambda _: 0.05))
+    assert again.step == 1000
+    for field in ("x", "y", "yaw", "yaw_rate", "lateral_acceleration", "articulation"):
+        np.testing.assert_array_equal(getattr(again, field), getattr(anew, field))
+
+
+def test_a_run_is_repeated_bit_for_bit_from_its_inputs_alone() -> None:
+    model = linear_model(load_vehicle("interlink"))
+    stepper = Stepper(model, 0.001)
+
+    def drive(stepper: Stepper) -> None:
+        stepper.steer(0.05 * math.sin(0.003 * stepper.step))
+        if stepper.step % 333 == 0:
+            stepper.change_speed(20.0 + stepper.step / 1000)
+        if stepper.step == 444:
+            stepper.reset()
+
+    first = [stepper.run(10, drive) for _ in range(100)]
+    inputs = {}
+    for sample in first:
+        for applied in sample.inputs:
+            inputs.setdefault(applied.step, []).append(applied)
+
+    def repeat(stepper: Stepper) -> None:
+        for applied in inputs.get(stepper.step, []):
+            stepper.apply(applied)
+
+    other = Stepper(model, 0.001)
+    for sample in first:
+        repeated = other.run(10, repeat)
+        for one, two in zip(sample[:-1], repeated[:-1], strict=True):
+            np.testing.assert_array_equal(one, two)

@@ -1,23 +1,24 @@
 """From samples to messages."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import Imu, JointState
-from std_msgs.msg import Float64
+from std_msgs.msg import Empty, Float64
 
-from yawdamp_ros.stepping import Sample
+from yawdamp_ros.stepping import AppliedInput, Sample
 from yawdamp_ros.stepping.time_grid import SECOND
 
 STANDARD_GRAVITY = 9.80665
 """In m/s^2; an accelerometer at rest shows it upwards (REP-145)."""
 SCALARS = ("yaw", "yaw_rate", "lateral_acceleration")
-STEERING_TYPE = "std_msgs/msg/Float64"
-"""Message in which a run holds the road-wheel steer angle as it was applied."""
+INPUT_TYPES: Mapping[str, type] = MappingProxyType({"steering": Float64, "speed": Float64, "reset": Empty})
+"""Messages in which a run holds what acted on the model, by the name of the input and its topic."""
 
 
 class OutputMessages:
@@ -96,9 +97,11 @@ class OutputMessages:
         self._joints.velocity = [steering_rate, *sample.articulation_rate.tolist()]
 
 
-def serialised_steering(angle: float) -> bytes:
-    """Steer angle in rad as a message of `STEERING_TYPE` in CDR."""
-    data: bytes = serialize_message(Float64(data=angle))
+def serialised_input(applied: AppliedInput) -> bytes:
+    """Message of an applied input in CDR."""
+    kind = INPUT_TYPES[applied.name]
+    message = Float64(data=applied.value) if kind is Float64 else kind()
+    data: bytes = serialize_message(message)
     return data
 
 

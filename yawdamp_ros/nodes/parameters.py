@@ -29,8 +29,9 @@ def _parameter(
     *,
     limits: tuple[float, float] | None = None,
     choices: Iterable[str] = (),
+    dynamic: bool = False,
 ) -> Any:  # noqa: ANN401 - dataclasses.field is typed by its default
-    metadata = {"description": description, "limits": limits, "choices": tuple(choices)}
+    metadata = {"description": description, "limits": limits, "choices": tuple(choices), "dynamic": dynamic}
     if isinstance(default, list):
         return field(default_factory=default.copy, metadata=metadata)
     return field(default=default, metadata=metadata)
@@ -46,7 +47,9 @@ class SimParameters:
         [""], "changes to the vehicle, each KEY=VALUE as in units.1.mass=4156"
     )
     model: str = _parameter("consistent", "linear model of the vehicle", choices=MODELS)
-    speed: float = _parameter(0.0, "longitudinal speed in m/s; 0: the vehicle's own", limits=(0.0, 70.0))
+    speed: float = _parameter(
+        0.0, "longitudinal speed in m/s; 0: the vehicle's own", limits=(0.0, 70.0), dynamic=True
+    )
     step_size: float = _parameter(0.001, "fixed integration step in s", limits=(1e-6, 1.0))
     publish_rate: float = _parameter(100.0, "samples a second of simulated time, in Hz", limits=(0.1, 1e4))
     publish_scalars: bool = _parameter(
@@ -128,7 +131,7 @@ def _check(name: str, value: Any, default: Any, described: Mapping[str, Any]) ->
 
 
 def _descriptor(described: Mapping[str, Any]) -> ParameterDescriptor:
-    descriptor = ParameterDescriptor(description=described["description"], read_only=True)
+    descriptor = ParameterDescriptor(description=described["description"], read_only=not described["dynamic"])
     if described["limits"]:
         low, high = described["limits"]
         descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]

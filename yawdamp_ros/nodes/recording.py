@@ -12,13 +12,14 @@ from typing import Self
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.logs import Channel, RunWriter
 from yawdamp_ros.nodes.messages import (
-    STEERING_TYPE,
+    INPUT_TYPES,
     OutputMessages,
-    serialised_steering,
+    serialised_input,
     type_name,
 )
 from yawdamp_ros.stepping import Sample, TimeGrid
 
+INPUT_CHANNELS = tuple(INPUT_TYPES)
 RECORDED_VERSIONS = ("yawdamp_ros", "numpy", "scipy", "mcap")
 
 
@@ -48,19 +49,19 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
     vehicle_text : str
         The vehicle file.
     topics : sequence of str
-        Fully qualified names: of the steering, then of the outputs.
+        Fully qualified names: of the applied inputs as in `INPUT_TYPES`, then of the outputs.
 
     Returns
     -------
     RunWriter
-        Its first channel is the steering as applied, the others are the outputs.
+        Its first channels are the inputs as applied, the others are the outputs.
 
     Raises
     ------
     LogError
         If the directory exists or cannot be written.
     """
-    types = [STEERING_TYPE, *(type_name(kind) for kind in outputs.types.values())]
+    types = [type_name(kind) for kind in (*INPUT_TYPES.values(), *outputs.types.values())]
     channels = [Channel(topic, name) for topic, name in zip(topics, types, strict=True)]
     metadata = {
         "vehicle": model.vehicle.name,
@@ -86,11 +87,12 @@ def run_messages(
     sample: Sample, outputs: Sequence[bytes], grid: TimeGrid, start_time: int
 ) -> Iterable[tuple[int, int, bytes]]:
     """Messages of a sample as `RunWriter.write` takes them: channel, time in ns, data."""
-    for step, angle in sample.steering_changes:
-        yield 0, start_time + step * grid.step_ns, serialised_steering(angle)
+    for applied in sample.inputs:
+        channel = INPUT_CHANNELS.index(applied.name)
+        yield channel, start_time + applied.step * grid.step_ns, serialised_input(applied)
     stamp = start_time + sample.step * grid.step_ns
     for index, data in enumerate(outputs):
-        yield 1 + index, stamp, data
+        yield len(INPUT_CHANNELS) + index, stamp, data
 
 
 def _is_nan(value: object) -> bool:
@@ -133,7 +135,7 @@ class RunRecorder:
             start_time=0,
             parameters=parameters,
             vehicle_text=vehicle_text,
-            topics=[f"/{topic}" for topic in ("steering", *self._outputs.types)],
+            topics=[f"/{topic}" for topic in (*INPUT_CHANNELS, *self._outputs.types)],
         )
 
     def write(self, sample: Sample) -> None:

@@ -12,16 +12,17 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
 
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.logs import BackgroundWriter, default_run_directory
 from yawdamp_ros.manoeuvres import SETTINGS, make_manoeuvre
 from yawdamp_ros.nodes.errors import NodeError
-from yawdamp_ros.nodes.messages import OutputMessages
+from yawdamp_ros.nodes.messages import INPUT_TYPES, OutputMessages
 from yawdamp_ros.nodes.parameters import SimParameters, declare_parameters
 from yawdamp_ros.nodes.recording import open_run, run_messages
-from yawdamp_ros.stepping import SteeringInput, Stepper, TimeGrid
+from yawdamp_ros.stepping import Pacer, SteeringInput, Stepper, TimeGrid
 from yawdamp_ros.stepping.time_grid import SECOND
 from yawdamp_ros.vehicle import load_vehicle, vehicle_text
 
@@ -71,6 +72,12 @@ class SimNode(Node):
         self._output_publishers = [
             self.create_publisher(kind, topic, QUEUE_DEPTH) for topic, kind in self._outputs.types.items()
         ]
+        self._new_speed: float | None = None
+        self._reset_wanted = False
+        self.add_post_set_parameters_callback(self._on_parameters)
+        self.create_service(Trigger, "~/reset", self._on_reset)
+        self.create_service(SetBool, "~/pause", self._on_pause)
+        self.create_service(Trigger, "~/step", self._on_step)
         self._start_time = self.get_clock().now().nanoseconds
         self.recorder = self._open_recorder() if self.settings.record else None
 
@@ -94,10 +101,11 @@ class SimNode(Node):
     def start(self) -> None:
         """Publish the first sample; from now on the steady clock counts."""
         self._publish(steps=0)
-        # The origin comes before the timer, so that a period is over whenever the timer fires.
-        self._origin = time.monotonic_ns()
+        period = self.grid.period_ns
+        # The pacer comes before the timer, so that a period is over whenever the timer fires.
+        self._pacer = Pacer(period, max(CATCH_UP_NS // period, QUEUE_DEPTH), time.monotonic_ns())
         self._timer = self.create_timer(
-            self.grid.period_ns / SECOND,
+            period / SECOND,
             self._on_timer,
             clock=Clock(clock_type=ClockType.STEADY_TIME),
         )
@@ -114,29 +122,34 @@ class SimNode(Node):
             publisher.wait_for_all_acked(Duration(seconds=1))
 
     def _on_timer(self) -> None:
-        elapsed = time.monotonic_ns() - self._origin
-        # Steps due come from the clock, not from callbacks: timers skip missed cycles.
-        due = elapsed // self.grid.period_ns - (self.samples_published - 1)
-        most = max(CATCH_UP_NS // self.grid.period_ns, QUEUE_DEPTH)
-        if due > most:
-            self._give_up(due - most)
-            due = most
-        for _ in range(due):
-            if self.finished:
-                self._timer.cancel()
-                return
+        due = self._pacer.due(time.monotonic_ns())
+        if due.given_up:
+            self.steps_given_up += due.given_up * self.grid.steps_per_sample
+            self.get_logger().warning(
+                f"late by more than can be made up for: {self.steps_given_up} steps given up so far",
+                throttle_duration_sec=WARNING_PERIOD,
+            )
+        for _ in range(due.periods):
+            self._advance()
+
+    def _advance(self) -> None:
+        if self.finished:
+            self._timer.cancel()
+        else:
             self._publish(steps=self.grid.steps_per_sample)
 
-    def _give_up(self, periods: int) -> None:
-        self._origin += periods * self.grid.period_ns
-        self.steps_given_up += periods * self.grid.steps_per_sample
-        self.get_logger().warning(
-            f"late by more than can be made up for: {self.steps_given_up} steps given up so far",
-            throttle_duration_sec=WARNING_PERIOD,
-        )
+    def _drive(self, stepper: Stepper) -> None:
+        """Let what came in since the last step act from this step on."""
+        if self._reset_wanted:
+            stepper.reset()
+            self._reset_wanted = False
+        if self._new_speed is not None:
+            stepper.change_speed(self._new_speed)
+            self._new_speed = None
+        stepper.steer(self._steering(stepper.step))
 
     def _publish(self, steps: int) -> None:
-        sample = self._stepper.run(steps, self._steering)
+        sample = self._stepper.run(steps, self._drive)
         stamp = self._start_time + sample.step * self.grid.step_ns
         outputs = list(self._outputs.serialised(sample, stamp))
         for publisher, data in zip(self._output_publishers, outputs, strict=True):
@@ -169,6 +182,33 @@ class SimNode(Node):
                 throttle_duration_sec=WARNING_PERIOD,
             )
 
+    def _on_parameters(self, parameters: list[Parameter]) -> None:
+        for parameter in parameters:
+            if parameter.name == "speed":
+                self._new_speed = parameter.value or self.model.vehicle.speed
+
+    def _on_reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._reset_wanted = True
+        response.success, response.message = True, "at rest at the origin from the next step on"
+        return response
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        if request.data:
+            self._pacer.pause(time.monotonic_ns())
+        else:
+            self._pacer.resume(time.monotonic_ns())
+        response.success, response.message = True, "paused" if request.data else "running"
+        return response
+
+    def _on_step(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self._pacer.paused
+        if response.success:
+            self._advance()
+            response.message = f"simulated time {self.simulated_time:.9g} s"
+        else:
+            response.message = "not paused: steps are for a simulation that stands"
+        return response
+
     def _steering_source(self) -> Callable[[int], float]:
         given = {name: value for name in SETTINGS if not math.isnan(value := getattr(self.settings, name))}
         if self.settings.manoeuvre != "none":
@@ -195,7 +235,7 @@ class SimNode(Node):
             parameters=asdict(self.settings),
             vehicle_text=vehicle_text(self.settings.vehicle),
             topics=[
-                self.resolve_topic_name("steering"),
+                *(self.resolve_topic_name(name) for name in INPUT_TYPES),
                 *(publisher.topic_name for publisher in self._output_publishers),
             ],
         )

@@ -1,13 +1,16 @@
 """Time: one fixed step, the same object for the node and for offline runs."""
 
 from yawdamp_ros.stepping.errors import SteppingError
+from yawdamp_ros.stepping.pacer import Pacer
 from yawdamp_ros.stepping.response import Response, simulate
-from yawdamp_ros.stepping.sample import Sample
+from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.steering_input import SteeringInput
 from yawdamp_ros.stepping.stepper import Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
 
 __all__ = [
+    "AppliedInput",
+    "Pacer",
     "Response",
     "Sample",
     "SteeringInput",

@@ -86,12 +86,12 @@ def sample_run(stepper: Stepper, grid: TimeGrid, steering: Steering, duration: f
     Sample
     """
 
-    def at_step(step: int) -> float:
-        return steering(grid.seconds(step))
+    def drive(stepper: Stepper) -> None:
+        stepper.steer(steering(grid.seconds(stepper.step)))
 
-    yield stepper.run(0, at_step)
+    yield stepper.run(0, drive)
     for _ in range(grid.samples_in(duration)):
-        yield stepper.run(grid.steps_per_sample, at_step)
+        yield stepper.run(grid.steps_per_sample, drive)
 
 
 def simulate(  # noqa: PLR0913 - each is one setting of a run

@@ -1,8 +1,25 @@
 """The one record that crosses from the numerics to messages and files."""
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
+
+
+class AppliedInput(NamedTuple):
+    """Something that acted on the model from a step on; a run is repeated from these alone.
+
+    Attributes
+    ----------
+    step : int
+    name : str
+        ``steering``, ``speed`` or ``reset``.
+    value : float
+        Road-wheel steer angle in rad, speed in m/s, or 0 for a reset.
+    """
+
+    step: int
+    name: Literal["steering", "speed", "reset"]
+    value: float
 
 
 class Sample(NamedTuple):
@@ -24,8 +41,8 @@ class Sample(NamedTuple):
         Of each centre of gravity in its unit's own frame, gravity excluded, m/s and m/s^2.
     articulation, articulation_rate : ndarray, shape (n - 1,)
         ``psi_k - psi_(k+1)`` and its rate, rad and rad/s.
-    steering_changes : tuple of (int, float)
-        Steps after the previous sample, up to this one, at which another steer angle took effect.
+    inputs : tuple of AppliedInput
+        What took effect after the previous sample, up to this one, in order.
     """
 
     step: int
@@ -39,4 +56,4 @@ class Sample(NamedTuple):
     lateral_acceleration: FloatArray
     articulation: FloatArray
     articulation_rate: FloatArray
-    steering_changes: tuple[tuple[int, float], ...]
+    inputs: tuple[AppliedInput, ...]

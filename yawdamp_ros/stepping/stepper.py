@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 from scipy.linalg import expm
 
-from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.stepping.sample import Sample
+from yawdamp_ros.stepping.sample import AppliedInput, Sample
 
 
 class Stepper:
@@ -26,17 +27,18 @@ class Stepper:
     """
 
     def __init__(self, model: LinearModel, step_size: float) -> None:
-        self.model = model
         self.step_size = step_size
         self.step = 0
         self._units = len(model.vehicle.units)
         self._hitches = model.vehicle.hitches
-        self._transition = _transition(model, step_size)
+        self._inputs = [
+            AppliedInput(0, "speed", model.speed),
+            AppliedInput(0, "steering", 0.0),
+        ]
+        self._use(model)
         self._vector = np.zeros(len(self._transition))
         self._next = np.zeros_like(self._vector)
-        self._x = self._y = 0.0
-        self._x_rate, self._y_rate = model.speed, 0.0
-        self._changes: list[tuple[int, float]] = [(0, 0.0)]
+        self._stand_at_the_origin()
 
     @property
     def state(self) -> FloatArray:
@@ -50,50 +52,72 @@ class Stepper:
 
     def steer(self, angle: float) -> None:
         """Set the road-wheel steer angle in rad that is in force from this instant on."""
-        if angle == self._vector[-1]:
-            return
-        self._vector[-1] = angle
-        if self._changes and self._changes[-1][0] == self.step:
-            self._changes.pop()
-        self._changes.append((self.step, angle))
+        if angle != self._vector[-1]:
+            self._vector[-1] = angle
+            self._note("steering", angle)
+
+    def change_speed(self, speed: float) -> None:
+        """Set the longitudinal speed in m/s from this instant on; the state stays as it is.
+
+        Raises
+        ------
+        DynamicsError
+            If the speed is not positive and finite.
+        """
+        if speed != self.model.speed:
+            self._use(linear_model(self.model.vehicle, speed, self.model.model))
+            self._set_ground_speed()
+            self._note("speed", speed)
+
+    def reset(self) -> None:
+        """Return to rest at the origin; time and steering stay as they are."""
+        self._vector[:-1] = 0.0
+        self._stand_at_the_origin()
+        self._note("reset", 0.0)
+
+    def apply(self, applied: AppliedInput) -> None:
+        """Let a recorded input act from this instant on."""
+        if applied.name == "steering":
+            self.steer(applied.value)
+        elif applied.name == "speed":
+            self.change_speed(applied.value)
+        else:
+            self.reset()
 
     def advance(self) -> None:
         """Take one step with the steering held."""
         np.dot(self._transition, self._vector, out=self._next)
         self._vector, self._next = self._next, self._vector
         self.step += 1
-        yaw, lateral_velocity = self._vector[-2], self._vector[0]
-        sine, cosine = math.sin(yaw), math.cos(yaw)
-        x_rate = self.model.speed * cosine - lateral_velocity * sine
-        y_rate = self.model.speed * sine + lateral_velocity * cosine
+        x_rate, y_rate = self._x_rate, self._y_rate
+        self._set_ground_speed()
         half = 0.5 * self.step_size
-        self._x += half * (self._x_rate + x_rate)
-        self._y += half * (self._y_rate + y_rate)
-        self._x_rate, self._y_rate = x_rate, y_rate
+        self._x += half * (x_rate + self._x_rate)
+        self._y += half * (y_rate + self._y_rate)
 
-    def run(self, steps: int, steering: Callable[[int], float]) -> Sample:
+    def run(self, steps: int, drive: Callable[["Stepper"], None]) -> Sample:
         """Take several steps and sample the instant after them.
 
         Parameters
         ----------
         steps : int
-            May be 0, for the sample of the first instant.
-        steering : callable
-            Steer angle in rad in force from a step on; asked once a step, in order.
+            0 for the first instant of a run.
+        drive : callable
+            Asked once at every step, in order, to set what acts on the model from that step on.
 
         Returns
         -------
         Sample
         """
-        if self.step == 0:
-            self.steer(steering(0))
+        if steps == 0:
+            drive(self)
         for _ in range(steps):
             self.advance()
-            self.steer(steering(self.step))
+            drive(self)
         return self.sample()
 
     def sample(self) -> Sample:
-        """Sample of this instant; the list of steering changes starts anew."""
+        """Sample of this instant; the list of inputs starts anew."""
         count = self._units
         state = self._vector[: 2 * count]
         steering_angle = self.steering_angle
@@ -104,7 +128,7 @@ class Stepper:
         yaw[0] = self._vector[-2]
         yaw[1:] = yaw[0] - np.cumsum(articulation)
         x, y = self._positions(yaw)
-        changes, self._changes = tuple(self._changes), []
+        inputs, self._inputs = tuple(self._inputs), []
         return Sample(
             step=self.step,
             steering_angle=steering_angle,
@@ -117,8 +141,28 @@ class Stepper:
             lateral_acceleration=outputs[2 * count : 3 * count],
             articulation=articulation,
             articulation_rate=yaw_rate[:-1] - yaw_rate[1:],
-            steering_changes=changes,
+            inputs=inputs,
         )
+
+    def _note(self, name: Literal["steering", "speed", "reset"], value: float) -> None:
+        # Of what is set twice at one step only the last ever acted.
+        if self._inputs and self._inputs[-1][:2] == (self.step, name):
+            self._inputs.pop()
+        self._inputs.append(AppliedInput(self.step, name, value))
+
+    def _use(self, model: LinearModel) -> None:
+        self.model = model
+        self._transition = _transition(model, self.step_size)
+
+    def _stand_at_the_origin(self) -> None:
+        self._x = self._y = 0.0
+        self._set_ground_speed()
+
+    def _set_ground_speed(self) -> None:
+        yaw, lateral_velocity = self._vector[-2], self._vector[0]
+        sine, cosine = math.sin(yaw), math.cos(yaw)
+        self._x_rate = self.model.speed * cosine - lateral_velocity * sine
+        self._y_rate = self.model.speed * sine + lateral_velocity * cosine
 
     def _positions(self, yaw: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Centres of gravity by the true geometry of the hitches, so that units stay coupled."""
