@@ -14,8 +14,7 @@ from yawdamp_ros.cli.dispatch import COMMANDS
 from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.nodes.parameters import SimParameters
 from yawdamp_ros.share import share_directory
-from yawdamp_ros.vehicle import builtin_vehicles
-from yawdamp_ros.vehicle.load import parse_vehicle
+from yawdamp_ros.vehicle import builtin_vehicles, parse_vehicle
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 

@@ -21,7 +21,7 @@ ONE = b"\x00\x01\x00\x00" + bytes(6) + b"\xf0\x3f"  # 1.0 in little-endian CDR
 
 
 def writer_in(directory: Path) -> RunWriter:
-    return RunWriter(directory, CHANNELS, {"vehicle.yaml": "name: x\n"}, {"speed": "20.0"})
+    return RunWriter(directory, CHANNELS, {"vehicle.yaml": "name: x\n"}, {"yawdamp_ros": {"speed": "20.0"}})
 
 
 @pytest.fixture

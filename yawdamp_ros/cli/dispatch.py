@@ -14,6 +14,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "sim": "the simulator node: steering in, motion of every unit out, recorded",
         "replay": "publish a recorded steering log at its own pace",
         "simulate": "the same run offline, as fast as it goes",
+        "resimulate": "run a recorded run again and say whether it is bit-identical",
     }
 )
 

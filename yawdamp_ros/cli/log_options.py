@@ -2,20 +2,23 @@
 
 import argparse
 import math
+import sys
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.logs import SteeringLog, read_steering_csv
+from yawdamp_ros.logs import SteeringLog, is_recording, read_steering_csv, read_steering_mcap
 
 
 def add_log_options(parser: argparse.ArgumentParser) -> None:
     """Add what says how a steering log is to be read."""
-    group = parser.add_argument_group("steering log (CSV with named columns)")
+    group = parser.add_argument_group("steering log (CSV, MCAP file or rosbag2 directory)")
     group.add_argument(
-        "--column", metavar="NAME", help="steering column; default: the one with 'steer' in it"
+        "--topic", help="of the steering in a recording; default: the one that fits, or is named so"
     )
+    group.add_argument("--joint", help="that steers, where the topic has joint states; default: steering")
+    group.add_argument("--column", metavar="NAME", help="of a CSV; default: the one with 'steer' in it")
     group.add_argument(
-        "--degrees", action="store_true", help="it holds degrees (a name ending in _deg says so itself)"
+        "--degrees", action="store_true", help="it holds degrees (a column's name ending in _deg says so)"
     )
     group.add_argument(
         "--steering-ratio",
@@ -38,5 +41,19 @@ def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -
     if not (math.isfinite(options.steering_ratio) and options.steering_ratio > 0.0):
         message = f"--steering-ratio: {options.steering_ratio}: expected a number above 0"
         raise UsageError(message)
-    log = read_steering_csv(Path(path), options.column, degrees=options.degrees)
+    log = _read(Path(path), options)
+    if log.warning:
+        print(f"warning: {log.warning}", file=sys.stderr)
     return log.divided(options.steering_ratio).window(options.start_offset, duration)
+
+
+def _read(path: Path, options: argparse.Namespace) -> SteeringLog:
+    recording = is_recording(path)
+    for option in ("column",) if recording else ("topic", "joint"):
+        if getattr(options, option) is not None:
+            message = f"--{option}: {path} is {'a recording' if recording else 'a CSV'} and has none"
+            raise UsageError(message)
+    if recording:
+        joint = options.joint or "steering"
+        return read_steering_mcap(path, options.topic, joint=joint, degrees=options.degrees)
+    return read_steering_csv(path, options.column, degrees=options.degrees)

@@ -67,6 +67,11 @@ def chosen_model(options: argparse.Namespace) -> LinearModel:
     return linear_model(chosen_vehicle(options), model=options.model or DEFAULT_MODEL)
 
 
+def add_format_option(parser: argparse.ArgumentParser) -> None:
+    """Add --format."""
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
+
+
 def add_manoeuvre_options(parser: argparse.ArgumentParser) -> None:
     """Add --manoeuvre and its settings."""
     group = parser.add_argument_group("manoeuvre")

@@ -28,25 +28,26 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
     log = chosen_log(options.log, options, options.duration)
     require_ros()
     from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
-    from yawdamp_ros.nodes.graph import ros_graph  # noqa: PLC0415
+    from yawdamp_ros.nodes.graph import ros_graph, spinning  # noqa: PLC0415
     from yawdamp_ros.nodes.replay import ReplayNode  # noqa: PLC0415
 
     with ros_graph(ros_arguments):
-        node = ReplayNode(log, options.rate, stop)
+        node = ReplayNode(log, options.rate, stop, publish_clock=options.clock)
         lowest, highest = min(log.angles), max(log.angles)
         print(
             f"{log.source}: {len(log.times)} samples over {log.duration:g} s, "
             f"{lowest:.4f} to {highest:.4f} rad, on {node.topic}",
             flush=True,
         )
-        if options.wait:
-            node.wait_for_subscriber()
-        with progress_bar() as bar:
-            task = bar.add_task("replaying", total=log.duration)
-            going = not stop.requested
-            while going:
-                going = node.play(lambda at: bar.update(task, completed=at)) and options.loop
-        node.close()
+        with spinning(node):
+            if options.wait:
+                node.wait_for_subscriber()
+            with progress_bar() as bar:
+                task = bar.add_task("replaying", total=log.duration)
+                going = not stop.requested
+                while going:
+                    going = node.play(lambda at: bar.update(task, completed=at)) and options.loop
+            node.close()
     return 0
 
 
@@ -59,12 +60,14 @@ def _parser() -> "argparse.ArgumentParser":
     parser = Parser(
         "replay",
         "Publish a recorded steering log on /steering at its own pace, as road-wheel angles.",
-        "python -m yawdamp_ros replay drive.csv --column steering_wheel_angle_deg --steering-ratio 16.88",
+        "python -m yawdamp_ros replay drive.csv --column steering_wheel_angle_deg --steering-ratio 16.88\n"
+        "  python -m yawdamp_ros replay runs/20261121-120000_interlink",
     )
-    parser.add_argument("log", metavar="LOG", help="CSV file with named columns")
+    parser.add_argument("log", metavar="LOG", help="CSV with named columns, MCAP file or rosbag2 directory")
     parser.add_argument("--rate", type=float, default=1.0, help="times as fast as recorded; default: 1")
     parser.add_argument("--duration", type=float, metavar="S", help="of the log; default: to its end")
     parser.add_argument("--loop", action="store_true", help="start again at its end")
+    parser.add_argument("--clock", action="store_true", help="publish the log's own time on /clock")
     parser.add_argument(
         "--wait",
         action=argparse.BooleanOptionalAction,

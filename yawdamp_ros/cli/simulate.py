@@ -25,7 +25,7 @@ from yawdamp_ros.logs import ResponseCsv, default_run_directory
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.stepping import Stepper, TimeGrid
 from yawdamp_ros.stepping.response import Steering, sample_run
-from yawdamp_ros.vehicle import vehicle_text
+from yawdamp_ros.vehicle import VehicleSource, vehicle_text
 
 if TYPE_CHECKING:
     from yawdamp_ros.nodes.recording import RunRecorder
@@ -94,7 +94,7 @@ def _run_directory(
         model,
         grid,
         parameters=vars(options),
-        vehicle_text=vehicle_text(options.vehicle or DEFAULT_VEHICLE),
+        vehicle=VehicleSource(vehicle_text(options.vehicle or DEFAULT_VEHICLE), tuple(options.set)),
     )
 
 

@@ -54,8 +54,8 @@ class RunWriter:
         Messages are written by their index in it.
     attachments : mapping of str to str
         Texts by file name, such as the vehicle file.
-    metadata : mapping of str to str
-        What else is needed to explain the run and to run it again.
+    metadata : mapping of str to mapping of str to str
+        Records by name: what else is needed to explain the run and to run it again.
 
     Raises
     ------
@@ -68,7 +68,7 @@ class RunWriter:
         directory: Path,
         channels: Sequence[Channel],
         attachments: Mapping[str, str],
-        metadata: Mapping[str, str],
+        metadata: Mapping[str, Mapping[str, str]],
     ) -> None:
         self.directory = directory
         self._definitions = [message_definition(channel.type_name) for channel in channels]
@@ -92,7 +92,8 @@ class RunWriter:
             self._register()
             for name, text in attachments.items():
                 self._writer.add_attachment(0, 0, name, "text/plain", text.encode())
-            self._writer.add_metadata("yawdamp_ros", dict(metadata))
+            for name, record in metadata.items():
+                self._writer.add_metadata(name, dict(record))
             self._writer.flush()
         except OSError as error:
             raise self._failure(error) from error

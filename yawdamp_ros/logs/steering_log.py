@@ -2,7 +2,7 @@
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from yawdamp_ros.logs.errors import LogError
 
@@ -19,11 +19,17 @@ class SteeringLog:
         In s from the start of the log, not decreasing.
     angles : sequence of float
         In rad, left positive.
+    start_time : int
+        Time of the first sample in ns, where the log knows; else 0.
+    warning : str
+        What is wrong with the file, though these samples could be read; else empty.
     """
 
     source: str
     times: Sequence[float]
     angles: Sequence[float]
+    start_time: int = 0
+    warning: str = ""
 
     def __call__(self, time: float) -> float:
         """Angle in rad in force at a time in s: that of the newest sample; 0 before the first."""
@@ -37,7 +43,7 @@ class SteeringLog:
 
     def divided(self, ratio: float) -> "SteeringLog":
         """The same log in road-wheel angles, where it holds those of the hand wheel."""
-        return SteeringLog(self.source, self.times, [angle / ratio for angle in self.angles])
+        return replace(self, angles=[angle / ratio for angle in self.angles])
 
     def window(self, start_offset: float, duration: float | None) -> "SteeringLog":
         """The part from an offset on, for a duration, both in s; its time starts anew.
@@ -59,4 +65,5 @@ class SteeringLog:
                 f"no sample between {start_offset:g} s and {end:g} s; the log lasts {self.duration:g} s",
             )
         times, angles = zip(*kept, strict=True)
-        return SteeringLog(self.source, times, angles)
+        start_time = self.start_time and self.start_time + round(start_offset * 1e9)
+        return replace(self, times=times, angles=angles, start_time=start_time)

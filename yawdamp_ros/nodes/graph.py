@@ -1,5 +1,6 @@
 """Joining the ROS graph and leaving it in good order."""
 
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
@@ -46,6 +47,20 @@ def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: 
             progress()
     finally:
         executor.shutdown()
+
+
+@contextmanager
+def spinning(node: Node) -> Iterator[None]:
+    """Serve a node in a thread of its own, for as long as this thread has other work."""
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    thread = threading.Thread(target=executor.spin, name="executor")
+    thread.start()
+    try:
+        yield
+    finally:
+        executor.shutdown()
+        thread.join()
 
 
 def _first_line(error: Exception) -> str:

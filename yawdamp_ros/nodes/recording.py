@@ -9,6 +9,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+import numpy as np
+import scipy
+
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.logs import Channel, RunWriter
 from yawdamp_ros.nodes.messages import (
@@ -18,9 +21,13 @@ from yawdamp_ros.nodes.messages import (
     type_name,
 )
 from yawdamp_ros.stepping import Sample, TimeGrid
+from yawdamp_ros.vehicle import VehicleSource
 
 INPUT_CHANNELS = tuple(INPUT_TYPES)
-RECORDED_VERSIONS = ("yawdamp_ros", "numpy", "scipy", "mcap")
+VEHICLE_FILE = "vehicle.yaml"
+"""Name of the attachment that holds the vehicle file."""
+METADATA_NAME = "yawdamp_ros"
+"""Name of the metadata record that explains a run."""
 
 
 def open_run(  # noqa: PLR0913 - each is one part of what explains a run
@@ -31,7 +38,7 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
     *,
     start_time: int,
     parameters: Mapping[str, object],
-    vehicle_text: str,
+    vehicle: VehicleSource,
     topics: Sequence[str],
 ) -> RunWriter:
     """Start a run directory that explains itself.
@@ -46,8 +53,7 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
         Stamp of step 0 in ns.
     parameters : mapping of str to object
         As the run was asked for.
-    vehicle_text : str
-        The vehicle file.
+    vehicle : VehicleSource
     topics : sequence of str
         Fully qualified names: of the applied inputs as in `INPUT_TYPES`, then of the outputs.
 
@@ -63,24 +69,39 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
     """
     types = [type_name(kind) for kind in (*INPUT_TYPES.values(), *outputs.types.values())]
     channels = [Channel(topic, name) for topic, name in zip(topics, types, strict=True)]
+    inputs, outputs_ = topics[: len(INPUT_TYPES)], topics[len(INPUT_TYPES) :]
     metadata = {
         "vehicle": model.vehicle.name,
+        "vehicle_overrides": json.dumps(vehicle.overrides),
         "model": model.model,
         "speed": repr(model.speed),
         "step_ns": str(grid.step_ns),
         "steps_per_sample": str(grid.steps_per_sample),
         "start_time_ns": str(start_time),
+        "input_topics": json.dumps(dict(zip(INPUT_TYPES, inputs, strict=True))),
+        "output_topics": json.dumps(dict(zip(outputs.types, outputs_, strict=True))),
         "state_names": json.dumps(model.state_names),
         "state_matrix": json.dumps(model.state_matrix.tolist()),
         "input_matrix": json.dumps(model.input_matrix.tolist()),
         "parameters": json.dumps(
             {name: None if _is_nan(value) else value for name, value in parameters.items()}
         ),
+        "version": version("yawdamp_ros"),
         "python": platform.python_version(),
-        "machine": platform.machine(),
-        **{f"{package}_version": version(package) for package in RECORDED_VERSIONS},
+        "build": build_of_numerics(),
     }
-    return RunWriter(directory, channels, {"vehicle.yaml": vehicle_text}, metadata)
+    return RunWriter(directory, channels, {VEHICLE_FILE: vehicle.text}, {METADATA_NAME: metadata})
+
+
+def build_of_numerics() -> str:
+    """What the last bit of a result depends on: machine, NumPy, SciPy, and the BLAS kernels in use."""
+    configuration = np.show_config(mode="dicts")
+    blas = configuration["Build Dependencies"]["blas"]
+    extensions = configuration["SIMD Extensions"].get("found", [])
+    return (
+        f"{platform.machine()} ({' '.join(extensions)}), numpy {np.__version__}, "
+        f"scipy {scipy.__version__}, {blas['name']} {blas['version']}"
+    )
 
 
 def run_messages(
@@ -108,7 +129,7 @@ class RunRecorder:
     model : LinearModel
     grid : TimeGrid
     parameters : mapping of str to object
-    vehicle_text : str
+    vehicle : VehicleSource
 
     Raises
     ------
@@ -123,7 +144,7 @@ class RunRecorder:
         grid: TimeGrid,
         *,
         parameters: Mapping[str, object],
-        vehicle_text: str,
+        vehicle: VehicleSource,
     ) -> None:
         self._grid = grid
         self._outputs = OutputMessages(model.vehicle.unit_names, publish_scalars=True)
@@ -134,7 +155,7 @@ class RunRecorder:
             grid,
             start_time=0,
             parameters=parameters,
-            vehicle_text=vehicle_text,
+            vehicle=vehicle,
             topics=[f"/{topic}" for topic in (*INPUT_CHANNELS, *self._outputs.types)],
         )
 

@@ -1,22 +1,27 @@
 """The replay node: a steering log on the topic, at its own pace."""
 
+import threading
 import time
 from collections.abc import Callable
 
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
 
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.nodes.stop_request import StopRequest
+from yawdamp_ros.stepping.time_grid import nanoseconds
 
 QUEUE_DEPTH = 10
-SUBSCRIBER_POLL = 0.02
-"""Seconds between looks for a subscriber."""
+POLL = 0.02
+"""Seconds between looks for a subscriber, a pause or its end."""
 
 
 class ReplayNode(Node):
-    """Publishes a steering log on ``steering``.
+    """Publishes a steering log on ``steering``; ``~/pause`` halts and resumes it.
 
     Parameters
     ----------
@@ -25,14 +30,19 @@ class ReplayNode(Node):
     rate : float
         Speed of the replay: 2 is twice as fast as recorded.
     stop : StopRequest
+    publish_clock : bool
+        Whether the log's own time goes out on ``/clock``.
     """
 
-    def __init__(self, log: SteeringLog, rate: float, stop: StopRequest) -> None:
+    def __init__(self, log: SteeringLog, rate: float, stop: StopRequest, *, publish_clock: bool) -> None:
         super().__init__("yawdamp_replay")
         self._log = log
         self._rate = rate
         self._stop = stop
         self._publisher = self.create_publisher(Float64, "steering", QUEUE_DEPTH)
+        self._clock_publisher = self.create_publisher(Clock, "/clock", QUEUE_DEPTH) if publish_clock else None
+        self._paused = threading.Event()
+        self.create_service(SetBool, "~/pause", self._on_pause)
 
     @property
     def topic(self) -> str:
@@ -42,7 +52,7 @@ class ReplayNode(Node):
     def wait_for_subscriber(self) -> bool:
         """Wait until somebody listens; return False if the stop request came first."""
         while self._publisher.get_subscription_count() == 0:
-            if self._stop.wait(SUBSCRIBER_POLL):
+            if self._stop.wait(POLL):
                 return False
         return True
 
@@ -60,14 +70,38 @@ class ReplayNode(Node):
         start = time.monotonic()
         message = Float64()
         for at, angle in zip(self._log.times, self._log.angles, strict=True):
-            delay = start + at / self._rate - time.monotonic()
-            if delay > 0.0 and self._stop.wait(delay):
+            while True:
+                if self._paused.is_set():
+                    start += self._wait_while_paused()
+                delay = start + at / self._rate - time.monotonic()
+                # A long wait is taken in parts, so that a pause within it is seen.
+                if delay <= 0.0 or self._stop.wait(min(delay, POLL)):
+                    break
+            if self._stop.requested:
                 return False
             message.data = angle
             self._publisher.publish(message)
+            if self._clock_publisher is not None:
+                now = self._log.start_time + nanoseconds(at)
+                self._clock_publisher.publish(Clock(clock=Time(nanoseconds=now).to_msg()))
             progress(at)
-        return not self._stop.requested
+        return True
 
     def close(self) -> None:
         """Let subscribers have what was published."""
         self._publisher.wait_for_all_acked(Duration(seconds=1))
+
+    def _wait_while_paused(self) -> float:
+        """Wait for the pause to end; return how long it was in s."""
+        since = time.monotonic()
+        while self._paused.is_set() and not self._stop.wait(POLL):
+            pass
+        return time.monotonic() - since
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        if request.data:
+            self._paused.set()
+        else:
+            self._paused.clear()
+        response.success, response.message = True, "paused" if request.data else "playing"
+        return response

@@ -24,7 +24,7 @@ from yawdamp_ros.nodes.parameters import SimParameters, declare_parameters
 from yawdamp_ros.nodes.recording import open_run, run_messages
 from yawdamp_ros.stepping import Pacer, SteeringInput, Stepper, TimeGrid
 from yawdamp_ros.stepping.time_grid import SECOND
-from yawdamp_ros.vehicle import load_vehicle, vehicle_text
+from yawdamp_ros.vehicle import VehicleSource, load_vehicle, vehicle_text
 
 QUEUE_DEPTH = 10
 CATCH_UP_NS = SECOND // 10
@@ -233,7 +233,7 @@ class SimNode(Node):
             self.grid,
             start_time=self._start_time,
             parameters=asdict(self.settings),
-            vehicle_text=vehicle_text(self.settings.vehicle),
+            vehicle=VehicleSource(vehicle_text(self.settings.vehicle), _vehicle_overrides(self.settings)),
             topics=[
                 *(self.resolve_topic_name(name) for name in INPUT_TYPES),
                 *(publisher.topic_name for publisher in self._output_publishers),
@@ -244,7 +244,9 @@ class SimNode(Node):
 
 
 def _model(settings: SimParameters) -> LinearModel:
-    overrides = [override for override in settings.vehicle_overrides if override]
-    if settings.speed:
-        overrides.append(f"speed={settings.speed!r}")
-    return linear_model(load_vehicle(settings.vehicle, overrides), model=settings.model)
+    vehicle = load_vehicle(settings.vehicle, _vehicle_overrides(settings))
+    return linear_model(vehicle, settings.speed or None, settings.model)
+
+
+def _vehicle_overrides(settings: SimParameters) -> tuple[str, ...]:
+    return tuple(override for override in settings.vehicle_overrides if override)

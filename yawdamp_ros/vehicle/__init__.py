@@ -1,7 +1,23 @@
 """What a vehicle combination is, and how one is read from a file."""
 
 from yawdamp_ros.vehicle.errors import VehicleError
-from yawdamp_ros.vehicle.load import builtin_vehicles, load_vehicle, vehicle_text
+from yawdamp_ros.vehicle.load import (
+    VehicleSource,
+    builtin_vehicles,
+    load_vehicle,
+    parse_vehicle,
+    vehicle_text,
+)
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 
-__all__ = ["Axle", "Unit", "Vehicle", "VehicleError", "builtin_vehicles", "load_vehicle", "vehicle_text"]
+__all__ = [
+    "Axle",
+    "Unit",
+    "Vehicle",
+    "VehicleError",
+    "VehicleSource",
+    "builtin_vehicles",
+    "load_vehicle",
+    "parse_vehicle",
+    "vehicle_text",
+]

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from jsonschema import Draft202012Validator, ValidationError
 from ruamel.yaml import YAML
@@ -18,6 +18,21 @@ from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 
 LONGEST_WHEELBASE = 30.0
 """Longest believable unit in m: beyond it a file most likely holds millimetres."""
+
+
+class VehicleSource(NamedTuple):
+    """What a vehicle was read from, enough to read it again anywhere.
+
+    Attributes
+    ----------
+    text : str
+        Of the vehicle file.
+    overrides : tuple of str
+        Changes to it, each ``KEY=VALUE``.
+    """
+
+    text: str
+    overrides: tuple[str, ...]
 
 
 def builtin_vehicles() -> tuple[str, ...]:

@@ -1,0 +1,134 @@
+"""Steering logs in recordings: found by topic or by type, decoded by the definitions in the file."""
+
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from yawdamp_ros.logs.errors import LogError
+from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder, RecordedMessage
+from yawdamp_ros.logs.steering_log import SteeringLog
+from yawdamp_ros.stepping.time_grid import SECOND
+
+
+def _joint_angle(message: Any, joint: str) -> float | None:  # noqa: ANN401 - made from a definition
+    names = list(message.name)
+    if joint not in names or len(message.position) != len(names):
+        return None
+    return float(message.position[names.index(joint)])
+
+
+STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyType(
+    {
+        "std_msgs/msg/Float64": lambda message, _: float(message.data),
+        "sensor_msgs/msg/JointState": _joint_angle,
+        "ackermann_msgs/msg/AckermannDriveStamped": lambda message, _: float(message.drive.steering_angle),
+        "autoware_control_msgs/msg/Lateral": lambda message, _: float(message.steering_tire_angle),
+        "autoware_control_msgs/msg/Control": lambda message, _: float(message.lateral.steering_tire_angle),
+    }
+)
+"""Types that can hold steering, each with the way to its angle in rad, left positive."""
+
+
+def read_steering_mcap(
+    path: Path, topic: str | None = None, *, joint: str = "steering", degrees: bool = False
+) -> SteeringLog:
+    """Read a steering log from an MCAP file or a rosbag2 directory.
+
+    Parameters
+    ----------
+    path : Path
+        Finished, or cut off: then it is read up to where it breaks, and the log says so.
+    topic : str, optional
+        Unless given, the one topic of a type in `STEERING_TYPES`; of several, the one whose name
+        contains ``steer``.
+    joint : str
+        Joint that steers, where the type is JointState.
+    degrees : bool
+        Whether the angles are in degrees.
+
+    Returns
+    -------
+    SteeringLog
+        Timed by the stamps in the messages, or by the time they were recorded where they have none.
+
+    Raises
+    ------
+    LogError
+        If there is no such topic, several fit, or a value is none.
+    """
+    log = McapLog(path)
+    found: dict[str, list[RecordedMessage]] = {}
+    topics: dict[str, str] = {}
+    for message in log.messages():
+        topics[message.topic] = message.type_name
+        if message.type_name in STEERING_TYPES and topic in {None, message.topic}:
+            found.setdefault(message.topic, []).append(message)
+    chosen = _choose(topic, topics, path)
+    messages = sorted(found[chosen], key=lambda message: message.log_time)
+    return _steering_log(path, chosen, messages, joint, degrees=degrees, warning=log.warning)
+
+
+def _choose(topic: str | None, topics: Mapping[str, str], path: Path) -> str:
+    fitting = [name for name, kind in topics.items() if kind in STEERING_TYPES]
+    if topic is not None:
+        if topic not in topics:
+            raise LogError(path, f"{topic}: no such topic; expected one of {_listed(fitting or topics)}")
+        if topic not in fitting:
+            raise LogError(path, f"{topic}: {topics[topic]}: expected one of {', '.join(STEERING_TYPES)}")
+        return topic
+    named = [name for name in fitting if "steer" in name.rpartition("/")[2].lower()]
+    for candidates in (named, fitting):
+        if len(candidates) == 1:
+            return candidates[0]
+    if not fitting:
+        raise LogError(path, f"no steering in it; its topics: {_listed(topics) or 'none'}")
+    raise LogError(
+        path, f"several topics could be steering; name one with --topic: {_listed(named or fitting)}"
+    )
+
+
+def _steering_log(  # noqa: PLR0913 - it gathers what was found
+    path: Path,
+    topic: str,
+    messages: list[RecordedMessage],
+    joint: str,
+    *,
+    degrees: bool,
+    warning: str,
+) -> SteeringLog:
+    decode = MessageDecoder()
+    scale = math.pi / 180.0 if degrees else 1.0
+    stamps: list[int] = []
+    angles: list[float] = []
+    for index, message in enumerate(messages):
+        where = f"{topic}: message {index + 1}"
+        decoded = decode(message)
+        try:
+            angle = STEERING_TYPES[message.type_name](decoded, joint)
+        except (AttributeError, TypeError, ValueError) as error:
+            raise LogError(path, f"{where}: not the {message.type_name} that is known") from error
+        if angle is None:
+            raise LogError(path, f"{where}: no joint {joint!r} with a position; name one with --joint")
+        if not math.isfinite(angle):
+            raise LogError(path, f"{where}: {angle}: expected a finite angle")
+        stamp = _stamp(decoded) or message.log_time
+        if stamps and stamp < stamps[-1]:
+            raise LogError(path, f"{where}: time goes back by {(stamps[-1] - stamp) / SECOND:g} s")
+        stamps.append(stamp)
+        angles.append(scale * angle)
+    # Divided, not multiplied: so a time is the same float as that of a step at the same nanosecond.
+    times = [(stamp - stamps[0]) / SECOND for stamp in stamps]
+    return SteeringLog(str(path), times, angles, start_time=stamps[0], warning=warning)
+
+
+def _stamp(message: Any) -> int:  # noqa: ANN401 - made from a definition
+    """Stamp of a message in ns; 0 where it has none."""
+    stamp = getattr(getattr(message, "header", message), "stamp", None)
+    return 0 if stamp is None else int(stamp.sec) * SECOND + int(stamp.nanosec)
+
+
+def _listed(names: Any, limit: int = 12) -> str:  # noqa: ANN401 - any names
+    shown = ", ".join(list(names)[:limit])
+    return shown if len(names) <= limit else f"{shown}, ..."

@@ -1,0 +1,207 @@
+"""A recorded run, run again from what it contains, and compared value by value."""
+
+import json
+import struct
+from collections.abc import Iterator, Mapping
+from itertools import chain, groupby
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from rclpy.serialization import deserialize_message
+
+from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.logs import LogError, McapLog, RecordedMessage
+from yawdamp_ros.nodes.messages import OutputMessages
+from yawdamp_ros.nodes.recording import METADATA_NAME, VEHICLE_FILE, build_of_numerics
+from yawdamp_ros.stepping import AppliedInput, Stepper
+from yawdamp_ros.stepping.time_grid import SECOND
+from yawdamp_ros.vehicle import parse_vehicle
+
+TOLERANCE = 1e-12
+"""Relative to the largest magnitude of a value so far; what is promised where bit-identity is not."""
+
+Value = float | int | str | bool
+
+
+class Difference(NamedTuple):
+    """Where a run and its repetition part.
+
+    Attributes
+    ----------
+    topic : str
+    time : float
+        Simulated time in s.
+    field : str
+        Path of the value in the message.
+    recorded, repeated : str
+    """
+
+    topic: str
+    time: float
+    field: str
+    recorded: str
+    repeated: str
+
+
+class Resimulation:
+    """A run and its repetition.
+
+    Everything is taken from the run itself: the vehicle, the model, the step, and the inputs with the steps
+    at which they took effect.
+
+    Parameters
+    ----------
+    path : Path
+        Run directory or its MCAP file, finished or cut off.
+
+    Attributes
+    ----------
+    duration : float
+        Simulated time compared, in s.
+    samples, messages, values : int
+        How much was compared.
+    difference : Difference or None
+        The first one.
+    bit_identical : bool
+        Whether every value compared so far is the same to the last bit.
+    promised : bool
+        Whether bit-identity is: the run is of this kind of machine and this build of the numerics.
+    recorded_build, build : str
+        The build it is of, and this one.
+
+    Raises
+    ------
+    LogError
+        If it is no run, or does not hold what is needed.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._log = McapLog(path)
+        self._messages = self._log.messages()
+        # What explains a run comes before its first message.
+        self._first = next(self._messages, None)
+        try:
+            known = self._log.metadata[METADATA_NAME]
+            vehicle = parse_vehicle(
+                self._log.attachments[VEHICLE_FILE].decode(),
+                str(path),
+                json.loads(known["vehicle_overrides"]),
+            )
+            self._model = linear_model(vehicle, float(known["speed"]), known["model"])
+            self._step_ns, self._start_time = int(known["step_ns"]), int(known["start_time_ns"])
+            self._inputs = {topic: name for name, topic in json.loads(known["input_topics"]).items()}
+            self._outputs: Mapping[str, str] = json.loads(known["output_topics"])
+            self.recorded_build = known["build"]
+        except (KeyError, ValueError, UnicodeDecodeError) as error:
+            raise LogError(path, f"not a run of this package, or not a whole one: {error}") from error
+        self.build = build_of_numerics()
+        self.promised = self.build == self.recorded_build
+        self.duration = 0.0
+        self.samples = self.messages = self.values = 0
+        self.difference: Difference | None = None
+        self.bit_identical = True
+        self._value_counts: dict[str, int] = {}
+        self._largest: dict[tuple[str, str], float] = {}
+
+    @property
+    def agrees(self) -> bool:
+        """Whether what is promised holds of all that was compared, and something was."""
+        return self.difference is None and self.samples > 0
+
+    @property
+    def warning(self) -> str:
+        """What is wrong with the file, though this much could be read; else empty."""
+        return self._log.warning
+
+    def compare(self) -> Iterator[float]:
+        """Run and compare to the end, or to the first difference.
+
+        Yields
+        ------
+        float
+            Simulated time of each sample, in s.
+        """
+        scalars = any(name.endswith("/yaw") for name in self._outputs)
+        outputs = OutputMessages(self._model.vehicle.unit_names, publish_scalars=scalars)
+        stepper = Stepper(self._model, self._step_ns / SECOND)
+        pending: dict[int, list[AppliedInput]] = {}
+
+        def drive(stepper: Stepper) -> None:
+            for applied in pending.pop(stepper.step, []):
+                stepper.apply(applied)
+
+        for log_time, group in groupby(self._all_messages(), key=lambda message: message.log_time):
+            step = (log_time - self._start_time) // self._step_ns
+            recorded: dict[str, bytes] = {}
+            for message in group:
+                if message.topic in self._inputs:
+                    pending.setdefault(step, []).append(self._applied(message, step))
+                else:
+                    recorded[message.topic] = message.data
+            if self.warning:  # the last instant of a run that was cut off need not be whole
+                return
+            if recorded:
+                sample = stepper.run(step - stepper.step, drive)
+                self.duration = step * self._step_ns / SECOND
+                repeated = outputs.serialised(sample, log_time)
+                for (name, kind), data in zip(outputs.types.items(), repeated, strict=True):
+                    self._compare(self._outputs[name], kind, recorded, data)
+                    if self.difference is not None:
+                        return
+                self.samples += 1
+                yield self.duration
+
+    def _all_messages(self) -> Iterator[RecordedMessage]:
+        return chain([self._first] if self._first is not None else [], self._messages)
+
+    def _applied(self, message: RecordedMessage, step: int) -> AppliedInput:
+        name: Any = self._inputs[message.topic]
+        # An Empty has no value; a Float64 in CDR is four bytes of header and the number.
+        value = 0.0 if name == "reset" else struct.unpack_from("<d", message.data, 4)[0]
+        return AppliedInput(step, name, value)
+
+    def _compare(self, topic: str, kind: type, recorded: Mapping[str, bytes], repeated: bytes) -> None:
+        if topic not in recorded:
+            self.difference = Difference(topic, self.duration, "", "no message", "a message")
+            self.bit_identical = False
+            return
+        self.messages += 1
+        if topic not in self._value_counts:
+            self._value_counts[topic] = sum(1 for _ in _values(deserialize_message(repeated, kind)))
+        self.values += self._value_counts[topic]
+        # The same bytes are the same values. Others need not be others: padding holds old memory.
+        if recorded[topic] == repeated:
+            return
+        pairs = zip(
+            _values(deserialize_message(recorded[topic], kind)),
+            _values(deserialize_message(repeated, kind)),
+            strict=True,
+        )
+        for (field, one), (_, other) in pairs:
+            if not self._same(topic, field, one, other):
+                self.difference = Difference(topic, self.duration, field, repr(one), repr(other))
+                return
+
+    def _same(self, topic: str, field: str, one: Value, other: Value) -> bool:
+        if not isinstance(one, float) or not isinstance(other, float):
+            return one == other
+        largest = max(self._largest.get((topic, field), 0.0), abs(one))
+        self._largest[topic, field] = largest
+        if struct.pack("<d", one) == struct.pack("<d", other):
+            return True
+        self.bit_identical = False
+        return not self.promised and abs(one - other) <= TOLERANCE * largest
+
+
+def _values(message: Any, path: str = "") -> Iterator[tuple[str, Value]]:  # noqa: ANN401 - generated
+    """Every value of a message with its path."""
+    if hasattr(message, "get_fields_and_field_types"):
+        for name in message.get_fields_and_field_types():
+            yield from _values(getattr(message, name), f"{path}.{name}" if path else name)
+    elif hasattr(message, "tolist"):
+        yield from _values(message.tolist(), path)
+    elif isinstance(message, list):
+        for index, value in enumerate(message):
+            yield from _values(value, f"{path}[{index}]")
+    else:
+        yield path, message
