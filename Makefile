@@ -6,7 +6,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: help setup sim test test-fast lint lock clean
+.PHONY: help setup sim test test-fast soak lint lock clean
 
 help:  ## say what the targets do
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -30,6 +30,9 @@ test: setup  ## run every test
 
 test-fast: setup  ## run the tests that need no ROS graph
 	@$(BIN)/python -m pytest -m "not graph"
+
+soak: setup  ## run the long tests, about twenty minutes; each says what it saw
+	@$(BIN)/python -m pytest test/soak
 
 lint: setup  ## ruff, mypy and the layering
 	@$(BIN)/ruff check .

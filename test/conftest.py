@@ -1,12 +1,28 @@
 """What all tests share."""
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+import pytest
 from hypothesis import settings
+
+if TYPE_CHECKING:
+    from graph import Graph
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 # The same examples every time: a check that fails now and then is no check of a commit.
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
+
+
+@pytest.fixture
+def graph(tmp_path: Path) -> "Iterator[Graph]":
+    """A ROS graph of this test's own, with the test's directory as working directory."""
+    from graph import Graph  # noqa: PLC0415 - tests that need no ROS do not import it
+
+    made = Graph(tmp_path)
+    yield made
+    made.close()

@@ -48,6 +48,11 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
                 while going:
                     going = node.play(lambda at: bar.update(task, completed=at)) and options.loop
             node.close()
+        if not stop.requested:
+            print(
+                f"played; the last sample {1e3 * node.lateness:.2f} ms after its time, "
+                f"at worst {1e3 * node.worst_lateness:.2f} ms"
+            )
     return 0
 
 

@@ -32,6 +32,11 @@ class ReplayNode(Node):
     stop : StopRequest
     publish_clock : bool
         Whether the log's own time goes out on ``/clock``.
+
+    Attributes
+    ----------
+    lateness, worst_lateness : float
+        Of the last sample and of the latest, after its deadline, in s.
     """
 
     def __init__(self, log: SteeringLog, rate: float, stop: StopRequest, *, publish_clock: bool) -> None:
@@ -42,6 +47,7 @@ class ReplayNode(Node):
         self._publisher = self.create_publisher(Float64, "steering", QUEUE_DEPTH)
         self._clock_publisher = self.create_publisher(Clock, "/clock", QUEUE_DEPTH) if publish_clock else None
         self._paused = threading.Event()
+        self.lateness = self.worst_lateness = 0.0
         self.create_service(SetBool, "~/pause", self._on_pause)
 
     @property
@@ -81,6 +87,8 @@ class ReplayNode(Node):
                 return False
             message.data = angle
             self._publisher.publish(message)
+            self.lateness = time.monotonic() - start - at / self._rate
+            self.worst_lateness = max(self.worst_lateness, self.lateness)
             if self._clock_publisher is not None:
                 now = self._log.start_time + nanoseconds(at)
                 self._clock_publisher.publish(Clock(clock=Time(nanoseconds=now).to_msg()))

@@ -1,0 +1,120 @@
+"""Long checks of recorded runs: `make soak`. Each says what it saw."""
+
+import json
+import math
+import random
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from graph import Graph, has_handler, stamps, until
+from rosbags.highlevel import AnyReader
+from sensor_msgs.msg import Imu
+
+from yawdamp_ros.logs import McapLog, MessageDecoder
+
+pytestmark = pytest.mark.timeout(3600)
+
+MAKE_SIM = ("sim", "--vehicle", "interlink", "--manoeuvre", "lane_change", "--duration", "15")
+SAY = Callable[[str], None]
+
+
+@pytest.fixture
+def say(capsys: pytest.CaptureFixture[str]) -> SAY:
+    def shown(text: str) -> None:
+        with capsys.disabled():
+            print(f"\n  {text}", flush=True)
+
+    return shown
+
+
+def verdict(run: Path) -> dict[str, object]:
+    command = [sys.executable, "-m", "yawdamp_ros", "resimulate", str(run), "--format", "json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode in {0, 1}, done.stderr
+    found: dict[str, object] = json.loads(done.stdout)
+    return found
+
+
+def test_twenty_runs_under_load_are_bit_identical(graph: Graph, say: SAY) -> None:
+    work = "import time\nend = time.monotonic() + 300\nwhile time.monotonic() < end: pass"
+    load = [subprocess.Popen([sys.executable, "-c", work]) for _ in range(2)]
+    try:
+        runs = []
+        for batch in range(5):
+            names = [f"run_{4 * batch + index}" for index in range(4)]
+            processes = [graph.command(*MAKE_SIM, "--output", name) for name in names]
+            for process in processes:
+                _, errors = process.communicate(timeout=120)
+                assert process.returncode == 0, errors
+            runs += [graph.directory / name for name in names]
+    finally:
+        for process in load:
+            process.kill()
+            process.wait()
+    found = [verdict(run) for run in runs]
+    identical = sum(bool(one["agrees"] and one["bit_identical"]) for one in found)
+    say(f"{identical} of {len(runs)} runs under load bit-identical, {found[0]['values']} values each")
+    assert identical == len(runs) == 20
+
+
+def test_fifty_kills_lose_at_most_a_second_each(graph: Graph, say: SAY) -> None:
+    moments = random.Random(50)  # noqa: S311 - any moments will do, the same ones each time
+    graph.listen({"/truck/imu": Imu})
+    losses = []
+    for index in range(50):
+        graph.received.clear()
+        run = graph.directory / f"run_{index}"
+        process = graph.command("sim", "--manoeuvre", "chirp", "--output", str(run))
+        until(lambda process=process: has_handler(process, 1), "the start")
+        time.sleep(moments.uniform(0.3, 4.0))
+        process.kill()
+        process.communicate()
+        time.sleep(0.1)
+        seen = stamps(graph.messages("/truck/imu")) if graph.received["/truck/imu"] else []
+        if not run.exists():
+            assert not seen
+            continue
+        log, decode = McapLog(run), MessageDecoder()
+        kept = [decode(message).header.stamp for message in log.messages() if message.topic == "/truck/imu"]
+        last_kept = kept[-1].sec * 10**9 + kept[-1].nanosec if kept else seen[0] if seen else 0
+        losses.append((seen[-1] - last_kept) / 1e9 if seen else 0.0)
+        if kept:
+            assert verdict(run)["bit_identical"]
+    say(f"{len(losses)} kills: at most {max(losses):.2f} s of samples lost, every file read")
+    assert max(losses) <= 1.0
+
+
+def test_an_hour_of_steering_writes_a_run_in_which_every_message_decodes(tmp_path: Path, say: SAY) -> None:
+    log = tmp_path / "hour.csv"
+    rows = (f"{index / 100},{0.03 * math.sin(index / 70):.9f}" for index in range(360_001))
+    log.write_text("time,steering_angle\n" + "\n".join(rows))
+    run = tmp_path / "run"
+    began = time.monotonic()
+    command = [sys.executable, "-m", "yawdamp_ros", "simulate", "--log", str(log), "--output", str(run)]
+    subprocess.run(command, check=True, capture_output=True)
+    took = time.monotonic() - began
+    with AnyReader([run]) as reader:
+        count = 0
+        for connection, _, data in reader.messages():
+            reader.deserialize(data, connection.msgtype)
+            count += 1
+        assert count == reader.message_count
+    say(f"an hour in {took:.0f} s, {count} messages, every one decodes")
+    assert count == 360_001 * 17 + 1
+
+
+def test_a_ten_minute_log_does_not_drift(graph: Graph, say: SAY) -> None:
+    log = graph.directory / "log.csv"
+    rows = (f"{index / 100},{0.03 * math.sin(index / 70):.9f}" for index in range(60_001))
+    log.write_text("time,steering_angle\n" + "\n".join(rows))
+    node = graph.command("sim", "--no-record")
+    replay = graph.command("replay", str(log))
+    output, errors = replay.communicate(timeout=700)
+    assert replay.returncode == 0, errors
+    node.terminate()
+    node.communicate()
+    say(output.splitlines()[-1])

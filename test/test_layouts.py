@@ -1,0 +1,34 @@
+"""The layouts for other programs name topics and fields that a run has."""
+
+import json
+import re
+from xml.etree import ElementTree as ET
+
+from runs import OUTPUTS
+from yawdamp_ros.share import share_directory
+
+CONFIG = share_directory() / "config"
+FIELDS = {
+    "/steering": {"data"},
+    **{topic: set(kind.get_fields_and_field_types()) for topic, kind in OUTPUTS.items()},
+}
+
+
+def test_the_foxglove_layout_shows_what_there_is() -> None:
+    layout = json.loads((CONFIG / "foxglove_layout.json").read_text(encoding="utf-8"))
+    shown = re.findall(r'"value": "(/[^."]+)\.(\w+)', json.dumps(layout))
+    assert len(shown) > 10
+    for topic, field in shown:
+        assert field in FIELDS[topic]
+    panels = set(re.findall(r'"(Plot![a-z]+)"', json.dumps(layout["layout"])))
+    assert panels == set(layout["configById"])
+
+
+def test_the_plotjuggler_layout_shows_what_there_is() -> None:
+    root = ET.parse(CONFIG / "plotjuggler_layout.xml").getroot()  # noqa: S314 - our own file
+    curves = [curve.attrib["name"] for curve in root.iter("curve")]
+    assert len(curves) > 10
+    joints = {"/joint_states/articulation_1/position", "/joint_states/articulation_2/position"}
+    for curve in curves:
+        topic, _, field = curve.rpartition("/")
+        assert curve in joints or field in FIELDS[topic]
