@@ -1,7 +1,6 @@
 """What all tests share."""
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +8,8 @@ import pytest
 from hypothesis import settings
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from graph import Graph
 
 sys.path.insert(0, str(Path(__file__).parent))
