@@ -66,7 +66,7 @@ def test_fifty_kills_lose_at_most_a_second_each(graph: Graph, say: SAY) -> None:
     graph.listen({"/truck/imu": Imu})
     losses = []
     for index in range(50):
-        graph.received.clear()
+        graph.received["/truck/imu"].clear()
         run = graph.directory / f"run_{index}"
         process = graph.command("sim", "--manoeuvre", "chirp", "--output", str(run))
         until(lambda process=process: has_handler(process, 1), "the start")
@@ -74,17 +74,17 @@ def test_fifty_kills_lose_at_most_a_second_each(graph: Graph, say: SAY) -> None:
         process.kill()
         process.communicate()
         time.sleep(0.1)
-        seen = stamps(graph.messages("/truck/imu")) if graph.received["/truck/imu"] else []
-        if not run.exists():
-            assert not seen
+        seen = stamps(graph.messages("/truck/imu"))
+        if not seen:  # killed before anything was published
             continue
         log, decode = McapLog(run), MessageDecoder()
         kept = [decode(message).header.stamp for message in log.messages() if message.topic == "/truck/imu"]
-        last_kept = kept[-1].sec * 10**9 + kept[-1].nanosec if kept else seen[0] if seen else 0
-        losses.append((seen[-1] - last_kept) / 1e9 if seen else 0.0)
+        last_kept = kept[-1].sec * 10**9 + kept[-1].nanosec if kept else seen[0]
+        losses.append((seen[-1] - last_kept) / 1e9)
         if kept:
             assert verdict(run)["bit_identical"]
-    say(f"{len(losses)} kills: at most {max(losses):.2f} s of samples lost, every file read")
+    say(f"{len(losses)} of 50 kills in mid-run: at most {max(losses):.2f} s of samples lost, every file read")
+    assert len(losses) > 25
     assert max(losses) <= 1.0
 
 

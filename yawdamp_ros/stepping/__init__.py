@@ -4,6 +4,7 @@ from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.pacer import Pacer
 from yawdamp_ros.stepping.response import Response, simulate
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
+from yawdamp_ros.stepping.steering_actuator import SteeringActuator
 from yawdamp_ros.stepping.steering_input import SteeringInput
 from yawdamp_ros.stepping.stepper import Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
@@ -13,6 +14,7 @@ __all__ = [
     "Pacer",
     "Response",
     "Sample",
+    "SteeringActuator",
     "SteeringInput",
     "Stepper",
     "SteppingError",

@@ -1,0 +1,38 @@
+"""The lag between a steering command and the road wheels."""
+
+import math
+
+
+class SteeringActuator:
+    """A rate limit, then a first-order lag; either may be off.
+
+    Over a step the command is held, and the lag is its exact solution.
+
+    Parameters
+    ----------
+    step_size : float
+        In s.
+    time_constant : float
+        Of the lag in s; 0: none.
+    rate_limit : float
+        Of the road-wheel angle in rad/s; 0: none.
+    """
+
+    def __init__(self, step_size: float, time_constant: float, rate_limit: float) -> None:
+        self._closing = 1.0 - math.exp(-step_size / time_constant) if time_constant else 1.0
+        self._largest_change = step_size * rate_limit if rate_limit else math.inf
+        self._demand = 0.0
+        self._angle = 0.0
+
+    def follow(self, command: float) -> float:
+        """Road-wheel angle in rad, one step after the last one, on the way to a command in rad."""
+        change = command - self._demand
+        if abs(change) > self._largest_change:
+            self._demand += math.copysign(self._largest_change, change)
+        else:
+            self._demand = command
+        if self._closing == 1.0:
+            self._angle = self._demand
+        else:
+            self._angle += self._closing * (self._demand - self._angle)
+        return self._angle
