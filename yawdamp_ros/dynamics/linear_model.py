@@ -7,13 +7,13 @@ from types import MappingProxyType
 
 import numpy as np
 
-from yawdamp_ros.dynamics import consistent
+from yawdamp_ros.dynamics import consistent, published
 from yawdamp_ros.dynamics.errors import DynamicsError
 from yawdamp_ros.dynamics.kinematics import FloatArray, cg_rows
 from yawdamp_ros.vehicle import Vehicle
 
 MODELS: Mapping[str, Callable[[Vehicle, float], tuple[FloatArray, FloatArray]]] = MappingProxyType(
-    {"consistent": consistent.state_space}
+    {"consistent": consistent.state_space, "published": published.state_space}
 )
 """The models of a vehicle, each a function from vehicle and speed to state and input matrix."""
 
@@ -54,6 +54,10 @@ class LinearModel:
 
 def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "consistent") -> LinearModel:
     """Linear model of a vehicle at a speed.
+
+    The outputs follow from the states by the vehicle's true kinematics in every model. Where the states
+    come from the published matrices, which contradict those kinematics, so do they: the accelerations
+    are those that units moving like the published states would have.
 
     Parameters
     ----------
