@@ -9,6 +9,7 @@ from yawdamp_ros.vehicle.load import (
     vehicle_text,
 )
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
+from yawdamp_ros.vehicle.tyres import fancher_stiffness, printed_stiffness
 
 __all__ = [
     "Axle",
@@ -17,7 +18,9 @@ __all__ = [
     "VehicleError",
     "VehicleSource",
     "builtin_vehicles",
+    "fancher_stiffness",
     "load_vehicle",
     "parse_vehicle",
+    "printed_stiffness",
     "vehicle_text",
 ]

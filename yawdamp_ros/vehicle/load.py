@@ -15,6 +15,7 @@ from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
+from yawdamp_ros.vehicle.tyres import fancher_stiffness
 
 LONGEST_WHEELBASE = 30.0
 """Longest believable unit in m: beyond it a file most likely holds millimetres."""
@@ -203,7 +204,7 @@ def _build(data: dict[str, Any]) -> Vehicle:
             axles=tuple(
                 Axle(
                     position=float(axle["position"]),
-                    cornering_stiffness=float(axle["cornering_stiffness"]),
+                    cornering_stiffness=_cornering_stiffness(axle),
                     steered=axle.get("steered", False),
                 )
                 for axle in unit["axles"]
@@ -214,6 +215,12 @@ def _build(data: dict[str, Any]) -> Vehicle:
         for unit in data["units"]
     )
     return Vehicle(name=data["name"], speed=float(data["speed"]), units=units)
+
+
+def _cornering_stiffness(axle: dict[str, Any]) -> float:
+    if "tyre_load" in axle:
+        return float(axle["tyres"] * fancher_stiffness(axle["tyre_load"]))
+    return float(axle["cornering_stiffness"])
 
 
 def _check_combination(vehicle: Vehicle, source: str) -> None:
