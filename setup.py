@@ -51,6 +51,7 @@ setup(
         "matplotlib>=3.6",  # the field's plotting library
     ],
     extras_require={
+        "analysis": ["control>=0.10"],  # root locus, Bode and Nyquist by the field's own library
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.
         "test": ["pytest>=8,<9", "pytest-timeout", "hypothesis", "sympy", "rosbags", "psutil"],

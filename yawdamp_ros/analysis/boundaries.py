@@ -1,0 +1,119 @@
+"""Where stability is won or lost as something varies, by root finding between the points of a scan."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+from scipy.optimize import brentq
+
+from yawdamp_ros.analysis.modes import rightmost
+from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.vehicle import Vehicle
+
+Kind = Literal["monotonic", "oscillatory", "jump"]
+
+SPEEDS = (0.5, 70.0)
+"""Speeds in m/s that are searched for critical ones; a vehicle file may ask for up to 70 m/s."""
+
+_JUMP = 1e-3
+"""Real part in 1/s that no root has: there the eigenvalue has gone through infinity, not through 0."""
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """A value at which the rightmost eigenvalue changes sides.
+
+    Attributes
+    ----------
+    value : float
+        Of what varies.
+    unstable_above : bool
+        Whether it is the larger values that are unstable.
+    kind : str
+        ``monotonic`` where a real eigenvalue crosses, ``oscillatory`` where a pair does, ``jump`` where it
+        passes infinity because the mass matrix is singular, as only the published one can be.
+    frequency : float
+        Of the crossing pair in rad/s; 0 for a real eigenvalue.
+    """
+
+    value: float
+    unstable_above: bool
+    kind: Kind
+    frequency: float
+
+
+def find_boundaries(
+    eigenvalue: Callable[[float], complex], scan: Sequence[tuple[float, complex]]
+) -> tuple[Boundary, ...]:
+    """Refine every change of stability in a scan.
+
+    Parameters
+    ----------
+    eigenvalue : callable
+        Rightmost eigenvalue in 1/s at a value.
+    scan : sequence of (float, complex)
+        Values, rising or falling, each with its rightmost eigenvalue. Two changes between neighbours go
+        unseen.
+
+    Returns
+    -------
+    tuple of Boundary
+        In the order of the scan.
+    """
+    found = []
+    for (start, at_start), (end, at_end) in pairwise(scan):
+        if (at_start.real > 0.0) != (at_end.real > 0.0):
+            value = float(brentq(lambda x: eigenvalue(x).real, start, end, xtol=1e-12, rtol=1e-12))
+            found.append(_boundary(value, (at_end.real > 0.0) == (end > start), eigenvalue(value)))
+    return tuple(found)
+
+
+def speed_boundaries(
+    vehicle: Vehicle, model: str = "consistent", speeds: tuple[float, float] = SPEEDS
+) -> tuple[Boundary, ...]:
+    """Speeds at which a vehicle becomes unstable, or stable again.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    model : str
+        One of `yawdamp_ros.dynamics.MODELS`.
+    speeds : (float, float)
+        Range that is searched, in m/s, in steps of 0.1 m/s or less.
+
+    Returns
+    -------
+    tuple of Boundary
+        By rising speed in m/s.
+
+    Raises
+    ------
+    DynamicsError
+        If there is no such model for this vehicle.
+    """
+
+    def eigenvalue(speed: float) -> complex:
+        return rightmost(linear_model(vehicle, speed, model).state_matrix)
+
+    lowest, highest = speeds
+    steps = int(np.ceil((highest - lowest) / 0.1)) + 1
+    scan = [(float(speed), eigenvalue(float(speed))) for speed in np.linspace(lowest, highest, steps)]
+    return find_boundaries(eigenvalue, scan)
+
+
+def critical_speed(boundaries: Iterable[Boundary]) -> float | None:
+    """Lowest speed in m/s at which an eigenvalue crosses into Re > 0 as the speed rises, if there is one."""
+    return next((boundary.value for boundary in boundaries if boundary.unstable_above), None)
+
+
+def _boundary(value: float, unstable_above: bool, eigenvalue: complex) -> Boundary:  # noqa: FBT001
+    kind: Kind
+    if abs(eigenvalue.real) > _JUMP:
+        kind, frequency = "jump", 0.0
+    elif eigenvalue.imag:
+        kind, frequency = "oscillatory", eigenvalue.imag
+    else:
+        kind, frequency = "monotonic", 0.0
+    return Boundary(value, unstable_above, kind, frequency)

@@ -1,0 +1,61 @@
+"""Eigenvalues as one thing about the vehicle varies."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from yawdamp_ros.analysis.boundaries import Boundary, find_boundaries
+from yawdamp_ros.analysis.modes import ComplexArray, rightmost
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics.kinematics import FloatArray
+
+
+@dataclass(frozen=True)
+class Locus:
+    """Eigenvalues over the values of a parameter.
+
+    Attributes
+    ----------
+    values : ndarray, shape (k,)
+    eigenvalues : ndarray of complex, shape (k, 2 n)
+        In 1/s, those of each value by rising real, then imaginary part.
+    boundaries : tuple of Boundary
+        Where stability changes between the first and the last value.
+    """
+
+    values: FloatArray
+    eigenvalues: ComplexArray
+    boundaries: tuple[Boundary, ...]
+
+
+def eigenvalue_locus(
+    model_at: Callable[[float], LinearModel],
+    values: Sequence[float],
+    progress: Callable[[Sequence[float]], Iterable[float]] = iter,
+) -> Locus:
+    """Eigenvalues over values of a parameter, and the boundaries of stability among them.
+
+    Parameters
+    ----------
+    model_at : callable
+        Model at a value of the parameter.
+    values : sequence of float
+        Rising or falling.
+    progress : callable
+        Wrapped around the values while they are worked on, as a progress bar is.
+
+    Returns
+    -------
+    Locus
+    """
+    eigenvalues = np.array(
+        [np.sort_complex(np.linalg.eigvals(model_at(value).state_matrix)) for value in progress(values)]
+    )
+
+    def eigenvalue(value: float) -> complex:
+        return rightmost(model_at(value).state_matrix)
+
+    # Sorted by real part, so that the last is the rightmost, with the positive imaginary part of a pair.
+    scan = list(zip(values, map(complex, eigenvalues[:, -1]), strict=True))
+    return Locus(np.array(values), eigenvalues, find_boundaries(eigenvalue, scan))

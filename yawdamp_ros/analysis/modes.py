@@ -1,0 +1,99 @@
+"""The modes of a linear model: how fast, how damped, and which units move."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics.kinematics import FloatArray
+
+ComplexArray = npt.NDArray[np.complex128]
+
+MOVING = 0.5
+"""Share of the largest yaw rate from which on a unit is said to move in a mode."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One eigenvalue of a state matrix, with its eigenvector seen as yaw rates.
+
+    Attributes
+    ----------
+    eigenvalue : complex
+        In 1/s.
+    yaw_rates : ndarray of complex, shape (n,)
+        Yaw rate of every unit in the mode, scaled so that the largest is 1; an argument is a phase lead.
+    moving_units : tuple of str
+        Units whose yaw rate is at least half the largest.
+    """
+
+    eigenvalue: complex
+    yaw_rates: ComplexArray
+    moving_units: tuple[str, ...]
+
+    @property
+    def undamped_frequency(self) -> float:
+        """``abs(lambda)`` in rad/s."""
+        return abs(self.eigenvalue)
+
+    @property
+    def damped_frequency(self) -> float:
+        """``abs(Im lambda)`` in rad/s."""
+        return abs(self.eigenvalue.imag)
+
+    @property
+    def damping_ratio(self) -> float:
+        """``-Re(lambda) / abs(lambda)``: 1 for a decaying real mode, -1 for a growing one."""
+        frequency = self.undamped_frequency
+        return -self.eigenvalue.real / frequency if frequency else 0.0
+
+
+def modes(model: LinearModel) -> tuple[Mode, ...]:
+    """Modes of a model, one for every eigenvalue.
+
+    Parameters
+    ----------
+    model : LinearModel
+
+    Returns
+    -------
+    tuple of Mode
+        Lightest damping first, then fastest first; of a conjugate pair the positive frequency first. It
+        is the order of Table 6 of Frerichs (2012).
+    """
+    eigenvalues, eigenvectors = np.linalg.eig(model.state_matrix)
+    rates = eigenvectors[1 : len(model.vehicle.units) + 1].T
+    found = [_mode(model, complex(value), shape) for value, shape in zip(eigenvalues, rates, strict=True)]
+    return tuple(sorted(found, key=lambda m: (m.damping_ratio, -m.undamped_frequency, -m.eigenvalue.imag)))
+
+
+def least_damping_ratio(model: LinearModel) -> float:
+    """Damping ratio of the lightest damped mode."""
+    return modes(model)[0].damping_ratio
+
+
+def rightmost(state_matrix: FloatArray) -> complex:
+    """Eigenvalue with the largest real part, of a conjugate pair the one with positive imaginary part.
+
+    Parameters
+    ----------
+    state_matrix : ndarray, shape (m, m)
+
+    Returns
+    -------
+    complex
+        In 1/s.
+    """
+    eigenvalues = np.linalg.eigvals(state_matrix)
+    value = complex(eigenvalues[np.argmax(eigenvalues.real)])
+    return complex(value.real, abs(value.imag))
+
+
+def _mode(model: LinearModel, eigenvalue: complex, shape: ComplexArray) -> Mode:
+    largest = shape[np.argmax(np.abs(shape))]
+    yaw_rates = np.asarray(shape / largest if largest else shape, dtype=np.complex128)
+    moving = tuple(
+        name for name, rate in zip(model.vehicle.unit_names, yaw_rates, strict=True) if abs(rate) >= MOVING
+    )
+    return Mode(eigenvalue, yaw_rates, moving)
