@@ -18,6 +18,7 @@ from yawdamp_ros.analysis.steady_turn import (
     steady_turn,
 )
 from yawdamp_ros.analysis.transfer_function import TransferFunction, transfer_function
+from yawdamp_ros.analysis.variation import Variation, parse_variation
 
 __all__ = [
     "SPEEDS",
@@ -28,11 +29,13 @@ __all__ = [
     "SteadyTurn",
     "Steering",
     "TransferFunction",
+    "Variation",
     "critical_speed",
     "eigenvalue_locus",
     "find_boundaries",
     "least_damping_ratio",
     "modes",
+    "parse_variation",
     "rightmost",
     "speed_boundaries",
     "static_gains",

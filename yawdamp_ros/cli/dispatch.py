@@ -15,6 +15,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "replay": "publish a recorded steering log at its own pace",
         "simulate": "the same run offline, as fast as it goes",
         "resimulate": "run a recorded run again and say whether it is bit-identical",
+        "stability": "modes, damping, understeer gradient, critical speed; root locus, Bode, Nyquist",
     }
 )
 

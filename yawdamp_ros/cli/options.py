@@ -54,12 +54,15 @@ def add_vehicle_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def overrides(options: argparse.Namespace) -> list[str]:
+    """Changes to the vehicle that --set and --speed ask for."""
+    speed = [] if options.speed is None else [f"speed={options.speed!r}"]
+    return [*options.set, *speed]
+
+
 def chosen_vehicle(options: argparse.Namespace) -> Vehicle:
     """Vehicle that the options name, with its overrides, at the speed they give."""
-    overrides = list(options.set)
-    if options.speed is not None:
-        overrides.append(f"speed={options.speed!r}")
-    return load_vehicle(options.vehicle or DEFAULT_VEHICLE, overrides)
+    return load_vehicle(options.vehicle or DEFAULT_VEHICLE, overrides(options))
 
 
 def chosen_model(options: argparse.Namespace) -> LinearModel:

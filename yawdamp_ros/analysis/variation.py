@@ -1,0 +1,84 @@
+"""One thing about a vehicle over a range."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.dynamics import LinearModel, linear_model
+from yawdamp_ros.vehicle import load_vehicle
+
+
+@dataclass(frozen=True)
+class Variation:
+    """Keys of a vehicle file that take the same values together.
+
+    Attributes
+    ----------
+    keys : tuple of str
+        As overrides take them.
+    values : tuple of float
+        Evenly spaced.
+    """
+
+    keys: tuple[str, ...]
+    values: tuple[float, ...]
+
+    @property
+    def label(self) -> str:
+        """Short text for the axis of a picture."""
+        others = len(self.keys) - 1
+        return f"{self.keys[0]} (and {others} more)" if others else self.keys[0]
+
+    def models(
+        self, vehicle: str | Path, overrides: Sequence[str] = (), model: str = "consistent"
+    ) -> Callable[[float], LinearModel]:
+        """Linear model as a function of the value that the keys take.
+
+        Parameters
+        ----------
+        vehicle : str or Path
+            As for `load_vehicle`.
+        overrides : sequence of str
+            Applied before the keys.
+        model : str
+            One of `yawdamp_ros.dynamics.MODELS`.
+
+        Returns
+        -------
+        callable
+            It raises what `load_vehicle` and `linear_model` raise.
+        """
+
+        def at(value: float) -> LinearModel:
+            varied = [f"{key}={value!r}" for key in self.keys]
+            return linear_model(load_vehicle(vehicle, [*overrides, *varied]), model=model)
+
+        return at
+
+
+def parse_variation(text: str) -> Variation:
+    """Read ``KEY=A:B:N``, N values from A to B, where KEY may be several keys separated by commas.
+
+    Raises
+    ------
+    AnalysisError
+        If the text is not that.
+    """
+    keys, _, span = text.partition("=")
+    names = tuple(keys.split(","))
+    try:
+        first, last, count = span.split(":")
+        start, end, number = float(first), float(last), int(count)
+    except ValueError as error:
+        raise _unreadable(text) from error
+    if not (all(names) and math.isfinite(end - start) and start != end and number > 1):
+        raise _unreadable(text)
+    return Variation(names, tuple(np.linspace(start, end, number).tolist()))
+
+
+def _unreadable(text: str) -> AnalysisError:
+    return AnalysisError(f"{text}: expected KEY=A:B:N, N values (2 or more) from A to B, as in speed=5:35:31")

@@ -1,0 +1,60 @@
+"""One look for every picture, and files that do not differ when nothing has changed."""
+
+from pathlib import Path
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from yawdamp_ros.pictures.errors import PictureError
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Okabe and Ito's palette, told apart with any colour vision."""
+
+STABLE, UNSTABLE = COLOURS[0], COLOURS[1]
+GREY = "#808080"
+
+FORMATS = {".png": "png", ".svg": "svg"}
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Empty figure of a size in inches, laid out so that labels do not overlap."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def style(axes: Axes, x_label: str, y_label: str, title: str = "") -> None:
+    """Label axes and give them the look that all share."""
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    axes.set_title(title, fontsize="medium")
+    axes.grid(visible=True, color="#e0e0e0", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def save(figure: Figure, path: str | Path) -> None:
+    """Write a figure as PNG or SVG, by the file's name.
+
+    The bytes depend on the figure and the versions of the libraries only: no date, no random names.
+
+    Parameters
+    ----------
+    figure : Figure
+    path : str or Path
+
+    Raises
+    ------
+    PictureError
+        If the name ends in neither .png nor .svg, or the file cannot be written.
+    """
+    form = FORMATS.get(Path(path).suffix.lower())
+    if form is None:
+        message = f"{path}: expected a name ending in {' or '.join(FORMATS)}"
+        raise PictureError(message)
+    metadata = {"Date": None} if form == "svg" else {"Software": None}
+    try:
+        with mpl.rc_context({"svg.hashsalt": "yawdamp_ros"}):
+            figure.savefig(path, format=form, dpi=120, metadata=metadata)
+    except OSError as error:
+        message = f"{path}: cannot be written: {error.strerror}"
+        raise PictureError(message) from error
