@@ -1,0 +1,91 @@
+"""Runs read back from the CSV files that `simulate` writes."""
+
+import csv
+import math
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.logs.errors import LogError
+from yawdamp_ros.stepping import Response
+
+QUANTITIES = ("yaw", "yaw_rate", "lateral_acceleration")
+
+
+def read_response_csv(path: Path) -> Response:
+    """Read a run.
+
+    Parameters
+    ----------
+    path : Path
+        Columns ``time``, ``steering_angle``, for every unit ``<unit>/yaw``, ``<unit>/yaw_rate`` and
+        ``<unit>/lateral_acceleration``, and ``articulation_1`` onwards, in any order; SI units.
+
+    Returns
+    -------
+    Response
+        With x and y not a number, for such a file holds no paths.
+
+    Raises
+    ------
+    LogError
+        If the file cannot be read or is no run; the message names the column or the line.
+    """
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            return _parse(csv.reader(file), path)
+    except OSError as error:
+        raise LogError(path, f"cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise LogError(path, "not UTF-8 text; expected a CSV file") from error
+    except csv.Error as error:
+        raise LogError(path, f"not valid CSV: {error}") from error
+
+
+def _parse(rows: Iterator[list[str]], path: Path) -> Response:
+    header = [name.strip() for name in next(rows, [])]
+    units = tuple(name.removesuffix("/yaw") for name in header if name.endswith("/yaw"))
+    if not units:
+        raise LogError(path, "no column <unit>/yaw; expected a run as simulate --output FILE.csv writes it")
+    joints = [f"articulation_{joint}" for joint in range(1, len(units))]
+    per_unit = {quantity: [f"{unit}/{quantity}" for unit in units] for quantity in QUANTITIES}
+    expected = ["time", "steering_angle", *joints, *(name for names in per_unit.values() for name in names)]
+    for name in expected:
+        if name not in header:
+            raise LogError(path, f"no column {name}; it has {', '.join(header)}")
+    table = np.array([_numbers(row, header, number, path) for number, row in enumerate(rows, 2) if row])
+    if not len(table):
+        raise LogError(path, "no rows below the column names; expected at least one sample")
+
+    def columns(names: Iterable[str]) -> FloatArray:
+        return table[:, [header.index(name) for name in names]]
+
+    unknown = np.full((len(table), len(units)), np.nan)
+    return Response(
+        unit_names=units,
+        time=columns(["time"])[:, 0],
+        steering_angle=columns(["steering_angle"])[:, 0],
+        yaw=columns(per_unit["yaw"]),
+        yaw_rate=columns(per_unit["yaw_rate"]),
+        lateral_acceleration=columns(per_unit["lateral_acceleration"]),
+        articulation=columns(joints),
+        x=unknown,
+        y=unknown,
+    )
+
+
+def _numbers(row: list[str], header: list[str], line: int, path: Path) -> list[float]:
+    if len(row) != len(header):
+        raise LogError(path, f"line {line}: {len(row)} values; expected {len(header)}")
+    numbers = []
+    for name, text in zip(header, row, strict=True):
+        try:
+            number = float(text)
+        except ValueError as error:
+            raise LogError(path, f"line {line}: {name}: {text!r}: expected a number") from error
+        if not math.isfinite(number):
+            raise LogError(path, f"line {line}: {name}: {text}: expected a finite number")
+        numbers.append(number)
+    return numbers
