@@ -32,7 +32,7 @@ def style(axes: Axes, x_label: str, y_label: str, title: str = "") -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def save(figure: Figure, path: str | Path) -> None:
+def save(figure: Figure, path: str | Path, dpi: float = 120.0) -> None:
     """Write a figure as PNG or SVG, by the file's name.
 
     The bytes depend on the figure and the versions of the libraries only: no date, no random names.
@@ -41,6 +41,8 @@ def save(figure: Figure, path: str | Path) -> None:
     ----------
     figure : Figure
     path : str or Path
+    dpi : float
+        Dots per inch of a PNG.
 
     Raises
     ------
@@ -51,10 +53,10 @@ def save(figure: Figure, path: str | Path) -> None:
     if form is None:
         message = f"{path}: expected a name ending in {' or '.join(FORMATS)}"
         raise PictureError(message)
-    metadata = {"Date": None} if form == "svg" else {"Software": None}
+    metadata = {"Date": None, "Creator": None} if form == "svg" else {"Software": None}
     try:
         with mpl.rc_context({"svg.hashsalt": "yawdamp_ros"}):
-            figure.savefig(path, format=form, dpi=120, metadata=metadata)
+            figure.savefig(path, format=form, dpi=dpi, metadata=metadata)
     except OSError as error:
         message = f"{path}: cannot be written: {error.strerror}"
         raise PictureError(message) from error
