@@ -5,8 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from yawdamp_ros.cli import run
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.response_reader import read_response_csv
+from yawdamp_ros.manoeuvres import LaneChange
+from yawdamp_ros.stepping import simulate
+from yawdamp_ros.vehicle import load_vehicle
 
 HEADER = (
     "time,steering_angle,a/yaw,a/yaw_rate,a/lateral_acceleration,b/yaw,b/yaw_rate,b/lateral_acceleration,"
@@ -30,6 +34,16 @@ def test_columns_are_read_to_their_units(tmp_path: Path) -> None:
     np.testing.assert_array_equal(response.lateral_acceleration, [[3, 6], [9, 12]])
     np.testing.assert_array_equal(response.articulation, [[-3], [-3]])
     assert np.isnan(response.x).all()
+
+
+def test_what_simulate_writes_is_read_back_bit_for_bit(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    arguments = ["--vehicle", "interlink", "--manoeuvre", "lane_change", "--duration", "2"]
+    assert run(["simulate", *arguments, "--sample-period", "0.01", "--output", str(path)]) == 0
+    written = simulate(load_vehicle("interlink"), LaneChange(), 2.0, sample_period=0.01)
+    found = read_response_csv(path)
+    for field in ("time", "steering_angle", "yaw", "yaw_rate", "lateral_acceleration", "articulation"):
+        np.testing.assert_array_equal(getattr(found, field), getattr(written, field))
 
 
 def test_one_unit_has_no_articulation(tmp_path: Path) -> None:

@@ -132,8 +132,7 @@ def print_text(answer: Stability, function: TransferFunction | None) -> None:
         print("static gains          none: a root at the origin")
     else:
         print_table(
-            "Static gains, per rad of road-wheel steer angle"
-            + ("" if answer.stable else " (never settled to)"),
+            "Static gains per rad of steer angle" if answer.stable else "Static gains, never settled to",
             ("output", "gain"),
             [(name, f"{gain:.4f}") for name, gain in answer.static_gains.items()],
         )

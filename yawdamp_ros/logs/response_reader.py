@@ -9,9 +9,8 @@ import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs.errors import LogError
+from yawdamp_ros.logs.response_csv import UNIT_COLUMNS
 from yawdamp_ros.stepping import Response
-
-QUANTITIES = ("yaw", "yaw_rate", "lateral_acceleration")
 
 
 def read_response_csv(path: Path) -> Response:
@@ -50,7 +49,7 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
     if not units:
         raise LogError(path, "no column <unit>/yaw; expected a run as simulate --output FILE.csv writes it")
     joints = [f"articulation_{joint}" for joint in range(1, len(units))]
-    per_unit = {quantity: [f"{unit}/{quantity}" for unit in units] for quantity in QUANTITIES}
+    per_unit = {quantity: [f"{unit}/{quantity}" for unit in units] for quantity in UNIT_COLUMNS}
     expected = ["time", "steering_angle", *joints, *(name for names in per_unit.values() for name in names)]
     for name in expected:
         if name not in header:
