@@ -4,8 +4,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import vehicles
 
+from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle, simulate
 from yawdamp_ros.dynamics import equations_of_motion
 from yawdamp_ros.dynamics.kinematics import FloatArray

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from strategies import vehicles
 
+from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.dynamics import DynamicsError
 from yawdamp_ros.stepping import Stepper

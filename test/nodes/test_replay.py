@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from graph import Graph, outcome, stop, until
 from std_msgs.msg import Float64
 
+from graph import Graph, outcome, stop, until
 from runs import OUTPUTS, PERIOD, recorded, run_directory, stepped_again
 from yawdamp_ros.logs import read_steering_csv
 

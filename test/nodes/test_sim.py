@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from graph import Graph, has_handler, outcome, stamps, stop, until
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
+from graph import Graph, has_handler, outcome, stamps, stop, until
 from runs import OUTPUTS, PERIOD, UNITS, recorded, run_directory, stepped_again
 from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.manoeuvres import LaneChange

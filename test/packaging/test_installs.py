@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from ament_index_python import get_package_prefix
+
 from graph import has_handler, stop, until
 
 ROOT = Path(__file__).parents[2]

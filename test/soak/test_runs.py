@@ -10,10 +10,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from graph import Graph, has_handler, stamps, until
 from rosbags.highlevel import AnyReader
 from sensor_msgs.msg import Imu
 
+from graph import Graph, has_handler, stamps, until
 from yawdamp_ros.logs import McapLog, MessageDecoder
 
 pytestmark = pytest.mark.timeout(3600)

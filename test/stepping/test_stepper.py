@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from strategies import vehicles
 
+from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.stepping import Stepper
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle

@@ -1,0 +1,98 @@
+"""A response, run again from its own steering."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.stepping import Response, Stepper, TimeGrid
+from yawdamp_ros.stepping.response import sample_run
+
+TOLERANCE = 1e-12
+"""Relative to the largest magnitude of a quantity; what is promised where bit-identity is not."""
+
+QUANTITIES = ("yaw", "yaw_rate", "lateral_acceleration", "articulation")
+
+
+class Parting(NamedTuple):
+    """Where a response and its repetition part.
+
+    Attributes
+    ----------
+    time : float
+        In s.
+    quantity : str
+    column : int
+        Unit, or joint, from 0.
+    recorded, repeated : float
+    """
+
+    time: float
+    quantity: str
+    column: int
+    recorded: float
+    repeated: float
+
+
+def repeat(response: Response, model: LinearModel) -> Response:
+    """Run again what a response recorded: the same model, from rest, under the same steering.
+
+    Parameters
+    ----------
+    response : Response
+        Sampled at every step, so that the steering of every step is in it.
+    model : LinearModel
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    AnalysisError
+        If the units are not the model's, or the samples do not lie on one grid of steps from 0 s.
+    """
+    if response.unit_names != model.vehicle.unit_names:
+        message = f"units {', '.join(response.unit_names)}: expected {', '.join(model.vehicle.unit_names)}"
+        raise AnalysisError(message)
+    step_size = float(response.time[1]) if len(response.time) > 1 else 0.001
+    grid = TimeGrid.of(step_size, step_size)
+    expected = [grid.seconds(step) for step in range(len(response.time))]
+    if not np.array_equal(response.time, expected):
+        message = "time: expected one sample a step, from 0 s on"
+        raise AnalysisError(message)
+    angles = dict(zip(expected, response.steering_angle.tolist(), strict=True))
+    samples = sample_run(Stepper(model, grid.step_size), grid, angles.__getitem__, expected[-1])
+    return Response.of(samples, response.unit_names, grid)
+
+
+def first_parting(recorded: Response, repeated: Response, tolerance: float) -> Parting | None:
+    """First value that differs by more than a tolerance, relative to the largest of its quantity.
+
+    Parameters
+    ----------
+    recorded, repeated : Response
+        Of the same samples.
+    tolerance : float
+        0 asks for the same bits.
+
+    Returns
+    -------
+    Parting or None
+    """
+    found = []
+    for quantity in QUANTITIES:
+        one, other = getattr(recorded, quantity), getattr(repeated, quantity)
+        allowed = tolerance * np.abs(one).max(initial=0.0)
+        for row, column in np.argwhere(~(np.abs(one - other) <= allowed))[:1]:
+            found.append(
+                Parting(
+                    float(recorded.time[row]),
+                    quantity,
+                    int(column),
+                    float(one[row, column]),
+                    float(other[row, column]),
+                )
+            )
+    return min(found, default=None)

@@ -1,0 +1,76 @@
+"""Recorded runs, read back as arrays."""
+
+import math
+from collections import defaultdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from yawdamp_ros.logs.errors import LogError
+from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder
+from yawdamp_ros.stepping import Response
+from yawdamp_ros.stepping.time_grid import SECOND
+
+
+def read_response_recording(path: Path) -> Response:
+    """Read a run that the node or `simulate` recorded.
+
+    Parameters
+    ----------
+    path : Path
+        Run directory or its MCAP file. Of one that was cut off, what is there.
+
+    Returns
+    -------
+    Response
+        Its time starts at 0.
+
+    Raises
+    ------
+    LogError
+        If it holds no run.
+    """
+    decode = MessageDecoder()
+    messages: dict[str, list[Any]] = defaultdict(list)
+    units: dict[str, None] = {}
+    stamps: list[int] = []
+    for message in McapLog(path).messages():
+        prefix, _, name = message.topic.rpartition("/")
+        unit = prefix.rpartition("/")[2]
+        if name == "joint_states":
+            stamps.append(message.log_time)
+            messages[name].append(decode(message))
+        elif name in {"imu", "odom"}:
+            units[unit] = None
+            messages[f"{unit}/{name}"].append(decode(message))
+    count = min((len(list_) for list_ in messages.values()), default=0)
+    if not count or not units or not stamps:
+        raise LogError(path, "no run: expected joint_states, and imu and odom of every unit")
+
+    def gather(values: Any) -> Any:  # noqa: ANN401 - a column of each unit
+        return np.array([[values(unit, index) for unit in units] for index in range(count)])
+
+    def imu(unit: str, index: int) -> Any:  # noqa: ANN401 - made from the definition in the file
+        return messages[f"{unit}/imu"][index]
+
+    def position(unit: str, index: int) -> Any:  # noqa: ANN401
+        return messages[f"{unit}/odom"][index].pose.pose.position
+
+    joints = np.array([list(message.position) for message in messages["joint_states"][:count]])
+    return Response(
+        unit_names=tuple(units),
+        time=np.array([(stamp - stamps[0]) / SECOND for stamp in stamps[:count]]),
+        steering_angle=joints[:, 0],
+        # A quaternion knows a heading only up to whole turns; the way it turned is continuous.
+        yaw=np.unwrap(gather(lambda unit, index: _yaw(imu(unit, index).orientation)), axis=0),
+        yaw_rate=gather(lambda unit, index: imu(unit, index).angular_velocity.z),
+        lateral_acceleration=gather(lambda unit, index: imu(unit, index).linear_acceleration.y),
+        articulation=joints[:, 1:],
+        x=gather(lambda unit, index: position(unit, index).x),
+        y=gather(lambda unit, index: position(unit, index).y),
+    )
+
+
+def _yaw(orientation: Any) -> float:  # noqa: ANN401
+    return 2.0 * math.atan2(orientation.z, orientation.w)
