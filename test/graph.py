@@ -10,13 +10,15 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import rclpy
-from rcl_interfaces.srv import SetParameters
+from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.parameter import Parameter
+from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import Float64
 
@@ -79,11 +81,30 @@ class Graph:
         """Messages of a topic so far."""
         return [deserialize_message(data, self._types[topic]) for data in self.received[topic]]
 
-    def steering_publisher(self, topic: str = "/steering") -> Any:  # noqa: ANN401 - rclpy's Publisher
-        """A publisher of steering commands that somebody listens to."""
-        publisher = self.node.create_publisher(Float64, topic, 10)
+    def publisher(self, kind: type, topic: str) -> Any:  # noqa: ANN401 - rclpy's Publisher
+        """A publisher that somebody listens to."""
+        publisher = self.node.create_publisher(kind, topic, 10)
         until(lambda: publisher.get_subscription_count() > 0, f"a subscriber of {topic}")
         return publisher
+
+    def steering_publisher(self, topic: str = "/steering") -> Any:  # noqa: ANN401
+        """A publisher of steering commands that somebody listens to."""
+        return self.publisher(Float64, topic)
+
+    def statuses(self) -> Callable[[str], Any]:
+        """The newest diagnostics, part by part; an empty status before the first."""
+        newest: dict[str, Any] = {}
+
+        def keep(array: DiagnosticArray) -> None:
+            newest.update({status.name.partition(": ")[2]: status for status in array.status})
+
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", keep, 10)
+        until(lambda: bool(newest), "diagnostics")
+        return lambda part: newest[part]
+
+    def installed(self, package: str) -> bool:
+        """Whether a package's Python modules can be imported."""
+        return find_spec(package) is not None
 
     def publishers(self, topic: str) -> int:
         """How many publishers a topic has."""
@@ -99,9 +120,20 @@ class Graph:
 
     def set_parameter(self, node: str, name: str, value: float) -> Any:  # noqa: ANN401 - a generated message
         """Set a parameter of a node and return what it says."""
-        parameter = Parameter(name, value=value).to_parameter_msg()
-        request = SetParameters.Request(parameters=[parameter])
+        request = SetParameters.Request(parameters=[Parameter(name, value=value).to_parameter_msg()])
         return self.call(f"{node}/set_parameters", SetParameters, request).results[0]
+
+    def set_parameters_atomically(self, node: str, values: dict[str, Any]) -> Any:  # noqa: ANN401
+        """Set parameters of a node together and return what it says."""
+        parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+        request = SetParametersAtomically.Request(parameters=parameters)
+        return self.call(f"{node}/set_parameters_atomically", SetParametersAtomically, request).result
+
+    def parameter(self, node: str, name: str) -> Any:  # noqa: ANN401
+        """Value of a parameter of a node."""
+        request = GetParameters.Request(names=[name])
+        (value,) = self.call(f"{node}/get_parameters", GetParameters, request).values
+        return parameter_value_to_python(value)
 
     def close(self) -> None:
         """Leave the graph; nothing that was started stays behind."""

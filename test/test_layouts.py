@@ -4,6 +4,8 @@ import json
 import re
 from xml.etree import ElementTree as ET
 
+from ruamel.yaml import YAML
+
 from runs import OUTPUTS
 from yawdamp_ros.share import share_directory
 
@@ -32,3 +34,12 @@ def test_the_plotjuggler_layout_shows_what_there_is() -> None:
     for curve in curves:
         topic, _, field = curve.rpartition("/")
         assert curve in joints or field in FIELDS[topic]
+
+
+def test_the_rviz_configuration_shows_what_there_is() -> None:
+    text = (CONFIG / "yawdamp.rviz").read_text(encoding="utf-8")
+    manager = YAML(typ="safe", pure=True).load(text)["Visualization Manager"]
+    assert manager["Global Options"]["Fixed Frame"] == "odom"
+    topics = {display["Topic"]["Value"] for display in manager["Displays"] if "Topic" in display}
+    assert topics == {"markers", "truck/odom"}
+    assert topics - {"markers"} <= {topic[1:] for topic in OUTPUTS}

@@ -27,6 +27,8 @@ def parameter_rows() -> list[str]:
         described = declared.metadata["description"]
         if declared.metadata["choices"]:
             described += f" ({', '.join(declared.metadata['choices'])})"
+        if declared.metadata["dynamic"]:
+            described += "; *while running*"
         rows.append(f"| `{declared.name}` | {default} | {described} |")
     return rows
 

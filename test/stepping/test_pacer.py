@@ -5,35 +5,68 @@ from yawdamp_ros.stepping import Pacer
 
 
 def test_a_period_is_due_once_it_is_over() -> None:
-    pacer = Pacer(10, most=5, now=1000)
-    assert [pacer.due(now) for now in (1009, 1010, 1011, 1045)] == [(0, 0), (1, 0), (0, 0), (3, 0)]
+    pacer = Pacer(10, most=5, rate=1.0, now=1000)
+    assert [pacer.due(now)[:2] for now in (1009, 1010, 1011, 1045)] == [(0, 0), (1, 0), (0, 0), (3, 0)]
 
 
 def test_what_is_too_late_is_given_up_once() -> None:
-    pacer = Pacer(10, most=5, now=0)
-    assert pacer.due(200) == (5, 15)
-    assert pacer.due(209) == (0, 0)
-    assert pacer.due(210) == (1, 0)
+    pacer = Pacer(10, most=5, rate=1.0, now=0)
+    assert pacer.due(200)[:2] == (5, 15)
+    assert pacer.due(209)[:2] == (0, 0)
+    assert pacer.due(210)[:2] == (1, 0)
 
 
 def test_time_that_stood_is_not_due() -> None:
-    pacer = Pacer(10, most=5, now=0)
-    assert pacer.due(20) == (2, 0)
+    pacer = Pacer(10, most=5, rate=1.0, now=0)
+    assert pacer.due(20)[:2] == (2, 0)
     pacer.pause(24)
     pacer.pause(100)
-    assert pacer.due(500) == (0, 0)
+    assert pacer.due(500)[:2] == (0, 0)
     pacer.resume(1000)
     pacer.resume(2000)
-    assert pacer.due(1005) == (0, 0)
-    assert pacer.due(1006) == (1, 0)
+    assert pacer.due(1005)[:2] == (0, 0)
+    assert pacer.due(1006)[:2] == (1, 0)
 
 
 @given(st.lists(st.integers(0, 100), max_size=50), st.integers(1, 10))
 def test_periods_simulated_and_given_up_make_up_the_time_that_went_by(waits: list[int], most: int) -> None:
-    pacer, now, total = Pacer(7, most, 0), 0, 0
+    pacer, now, total = Pacer(7, most, 1.0, 0), 0, 0
     for wait in waits:
         now += wait
         due = pacer.due(now)
         assert 0 <= due.periods <= most
-        total += sum(due)
+        total += due.periods + due.given_up
         assert total == now // 7
+
+
+def test_a_rate_scales_time_and_can_change_on_the_way() -> None:
+    pacer = Pacer(10, most=50, rate=2.0, now=0)
+    assert pacer.due(20)[:2] == (4, 0)
+    pacer.change_rate(0.5, now=25)
+    assert pacer.due(25)[:2] == (1, 0)
+    assert pacer.due(44)[:2] == (0, 0)
+    assert pacer.due(45)[:2] == (1, 0)
+
+
+def test_as_fast_as_it_goes_is_always_due_but_in_a_pause() -> None:
+    pacer = Pacer(10, most=5, rate=0.0, now=0)
+    assert pacer.due(0) == pacer.due(1) == (5, 0, 0.0)
+    pacer.pause(2)
+    assert pacer.due(3) == (0, 0, 0.0)
+    pacer.change_rate(1.0, 4)
+    pacer.resume(100)
+    assert pacer.due(110)[:2] == (1, 0)
+
+
+def test_lateness_is_how_far_behind_the_grid_a_look_was() -> None:
+    pacer = Pacer(10, most=5, rate=1.0, now=0)
+    assert pacer.due(10).lateness == 0.0
+    assert pacer.due(23).lateness == 3.0
+    assert pacer.due(45).lateness == 15.0
+
+
+def test_a_year_at_a_kilohertz_does_not_drift() -> None:
+    pacer, year, done = Pacer(1_000_000, 10**12, 1.0, 0), 31_536_000_000_000_000, 0
+    for part in range(1, 1001):
+        done += pacer.due(year * part // 1000 + 7 * part).periods
+    assert done == (year + 7000) // 1_000_000

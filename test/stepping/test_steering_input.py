@@ -1,14 +1,17 @@
 import pytest
 
-from yawdamp_ros.stepping import SteeringInput
+from yawdamp_ros.stepping import SteeringInput, Verdict
 
 
-def steering_input(
-    *, ratio: float = 1.0, limit: float = 0.5, timeout_steps: int = 100, zero_on_timeout: bool = False
-) -> SteeringInput:
-    return SteeringInput(
-        ratio=ratio, limit=limit, timeout_steps=timeout_steps, zero_on_timeout=zero_on_timeout
-    )
+def steering_input(**settings: float) -> SteeringInput:
+    defaults = {
+        "ratio": 1.0,
+        "limit": 0.5,
+        "timeout_steps": 100,
+        "zero_on_timeout": False,
+        "max_age": 0.0,
+    }
+    return SteeringInput(**{**defaults, **settings})  # type: ignore[arg-type]
 
 
 def test_wheels_point_straight_ahead_until_the_first_command() -> None:
@@ -34,17 +37,19 @@ def test_a_hand_wheel_angle_is_divided_by_the_ratio() -> None:
 def test_what_is_no_angle_is_rejected_counted_and_forgotten(command: float) -> None:
     source = steering_input()
     source.offer(0.1, 0)
-    assert not source.offer(command, 1)
-    assert (source.at(2), source.rejected, source.clamped) == (0.1, 1, 0)
+    assert source.offer(command, 1) is Verdict.NOT_FINITE
+    assert source.at(2) == 0.1
+    assert source.counts[Verdict.NOT_FINITE] == 1
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_an_angle_past_the_limit_is_clamped_and_counted(sign: float) -> None:
     source = steering_input(ratio=2.0)
-    assert source.offer(sign * 1e308, 0)
-    assert (source.at(1), source.rejected, source.clamped) == (sign * 0.5, 0, 1)
-    source.offer(sign * 1.0, 1)
-    assert (source.at(2), source.clamped) == (sign * 0.5, 1)
+    assert source.offer(sign * 1e308, 0) is Verdict.CLAMPED
+    assert source.at(1) == sign * 0.5
+    assert source.offer(sign * 1.0, 1) is Verdict.TAKEN
+    assert source.at(2) == sign * 0.5
+    assert source.counts[Verdict.CLAMPED] == 1
 
 
 def test_silence_zeroes_the_wheels_only_past_the_timeout_and_only_if_asked() -> None:
@@ -60,3 +65,24 @@ def test_a_rejected_command_does_not_end_a_silence() -> None:
     source.offer(0.1, 0)
     source.offer(float("nan"), 90)
     assert source.at(101) == 0.0
+
+
+@pytest.mark.parametrize("age", [0.6, 3600.0, -0.6, -3600.0])
+def test_a_stamp_that_is_not_of_now_is_refused_and_counted(age: float) -> None:
+    source = steering_input(max_age=0.5)
+    source.offer(0.1, 0, age=0.4)
+    assert source.offer(0.2, 1, age=age) is Verdict.STALE
+    assert source.at(2) == 0.1
+    assert source.counts[Verdict.STALE] == 1
+
+
+def test_stamps_do_not_count_where_there_are_none_or_any_age_will_do() -> None:
+    assert steering_input(max_age=0.5).offer(0.1, 0) is Verdict.TAKEN
+    assert steering_input(max_age=0.0).offer(0.1, 0, age=3600.0) is Verdict.TAKEN
+
+
+def test_silence_is_the_steps_since_the_last_command() -> None:
+    source = steering_input()
+    assert source.silence(7) is None
+    source.offer(0.1, 7)
+    assert source.silence(12) == 5

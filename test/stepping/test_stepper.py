@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.linalg import expm
 
 from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
@@ -227,3 +228,30 @@ def test_a_run_is_repeated_bit_for_bit_from_its_inputs_alone() -> None:
         repeated = other.run(10, repeat)
         for one, two in zip(sample[:-1], repeated[:-1], strict=True):
             np.testing.assert_array_equal(one, two)
+
+
+def test_from_a_snapshot_a_run_goes_on_bit_for_bit() -> None:
+    model = linear_model(load_vehicle("interlink"))
+    first, other = Stepper(model, 0.001), Stepper(model, 0.001)
+    drive = steering(lambda step: 0.05 * math.sin(0.003 * step))
+    first.run(500, drive)
+    first.change_speed(19.0)
+    first.sample()
+    other.restore(first.snapshot())
+    for one, two in zip(first.run(500, drive), other.run(500, drive), strict=True):
+        np.testing.assert_array_equal(one, two)
+
+
+def test_a_changing_speed_is_followed_as_by_matrices_of_every_step() -> None:
+    vehicle = load_vehicle("interlink")
+    stepper = Stepper(linear_model(vehicle, 20.0), 0.01)
+    state = np.zeros(6)
+    stepper.steer(0.03)
+    for step in range(400):
+        speed = 20.0 + 5.0 * math.sin(0.05 * (step % 100))
+        stepper.change_speed(speed)
+        stepper.advance()
+        model = linear_model(vehicle, speed)
+        steady = np.linalg.solve(model.state_matrix, -model.input_matrix * 0.03)
+        state = steady + expm(0.01 * model.state_matrix) @ (state - steady)
+        np.testing.assert_allclose(stepper.state, state, rtol=0.0, atol=1e-9)

@@ -20,7 +20,6 @@ from yawdamp_ros.cli.options import (
 )
 from yawdamp_ros.cli.peaks_table import print_peaks
 from yawdamp_ros.cli.ros import require_ros
-from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.logs import ResponseCsv, default_run_directory
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.stepping import Stepper, TimeGrid
@@ -46,13 +45,14 @@ def main(arguments: Sequence[str]) -> int:
     to_csv = output.suffix == ".csv"
     period = options.sample_period or (options.step_size if to_csv else RUN_SAMPLE_PERIOD)
     grid = TimeGrid.of(options.step_size, period)
-    samples = sample_run(Stepper(model, grid.step_size), grid, steering, duration)
+    stepper = Stepper(model, grid.step_size)
+    samples = sample_run(stepper, grid, steering, duration)
     peaks = Peaks(len(model.vehicle.units))
     with StopRequest() as stop:
         sink = (
             ResponseCsv(output, model.vehicle.unit_names, grid)
             if to_csv
-            else _run_directory(output, model, grid, options)
+            else _run_directory(output, stepper, grid, options)
         )
         with sink as writer, progress_bar() as bar:
             task = bar.add_task("simulating", total=duration)
@@ -84,14 +84,14 @@ def _steering(options: argparse.Namespace) -> tuple[Steering, float]:
 
 
 def _run_directory(
-    directory: Path, model: LinearModel, grid: TimeGrid, options: argparse.Namespace
+    directory: Path, stepper: Stepper, grid: TimeGrid, options: argparse.Namespace
 ) -> "RunRecorder":
     require_ros()
     from yawdamp_ros.nodes.recording import RunRecorder  # noqa: PLC0415 - a CSV needs no ROS
 
     return RunRecorder(
         directory,
-        model,
+        stepper,
         grid,
         parameters=vars(options),
         vehicle=VehicleSource(vehicle_text(options.vehicle or DEFAULT_VEHICLE), tuple(options.set)),

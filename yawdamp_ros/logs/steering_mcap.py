@@ -113,7 +113,7 @@ def _steering_log(  # noqa: PLR0913 - it gathers what was found
             raise LogError(path, f"{where}: no joint {joint!r} with a position; name one with --joint")
         if not math.isfinite(angle):
             raise LogError(path, f"{where}: {angle}: expected a finite angle")
-        stamp = _stamp(decoded) or message.log_time
+        stamp = message_stamp(decoded) or message.log_time
         if stamps and stamp < stamps[-1]:
             raise LogError(path, f"{where}: time goes back by {(stamps[-1] - stamp) / SECOND:g} s")
         stamps.append(stamp)
@@ -123,7 +123,7 @@ def _steering_log(  # noqa: PLR0913 - it gathers what was found
     return SteeringLog(str(path), times, angles, start_time=stamps[0], warning=warning)
 
 
-def _stamp(message: Any) -> int:  # noqa: ANN401 - made from a definition
+def message_stamp(message: Any) -> int:  # noqa: ANN401 - made from a definition
     """Stamp of a message in ns; 0 where it has none."""
     stamp = getattr(getattr(message, "header", message), "stamp", None)
     return 0 if stamp is None else int(stamp.sec) * SECOND + int(stamp.nanosec)

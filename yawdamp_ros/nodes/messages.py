@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
 from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
@@ -21,6 +22,32 @@ INPUT_TYPES: Mapping[str, type] = MappingProxyType({"steering": Float64, "speed"
 """Messages in which a run holds what acted on the model, by the name of the input and its topic."""
 
 
+class Noise(NamedTuple):
+    """Normally distributed noise on what the imu topics hold, and nothing else.
+
+    It depends on the seed and the step alone, so that it repeats wherever a run is taken up.
+
+    Attributes
+    ----------
+    yaw, yaw_rate, lateral_acceleration : float
+        Standard deviations in rad, rad/s and m/s^2.
+    seed : int
+    """
+
+    yaw: float = 0.0
+    yaw_rate: float = 0.0
+    lateral_acceleration: float = 0.0
+    seed: int = 0
+
+    def of_step(self, step: int, units: int) -> list[list[float]]:
+        """Noise on yaw, yaw rate and lateral acceleration of every unit at a step."""
+        if not any(self[:3]):
+            return [[0.0] * units] * 3
+        generator = np.random.default_rng([self.seed, step])
+        drawn: list[list[float]] = (generator.standard_normal((units, 3)) * self[:3]).T.tolist()
+        return drawn
+
+
 class OutputMessages:
     """The messages of one instant, the same objects filled anew each time.
 
@@ -29,6 +56,7 @@ class OutputMessages:
     unit_names : sequence of str
     publish_scalars : bool
         Whether yaw, yaw rate and lateral acceleration also go out as plain numbers.
+    noise : Noise, optional
 
     Attributes
     ----------
@@ -36,8 +64,11 @@ class OutputMessages:
         Message class by relative topic, in the order in which `serialised` gives them.
     """
 
-    def __init__(self, unit_names: Sequence[str], *, publish_scalars: bool) -> None:
-        self._imus = [_imu(name) for name in unit_names]
+    def __init__(
+        self, unit_names: Sequence[str], *, publish_scalars: bool, noise: Noise | None = None
+    ) -> None:
+        self._noise = noise or Noise()
+        self._imus = [_imu(name, self._noise) for name in unit_names]
         self._odometries = [_odometry(name) for name in unit_names]
         self._joints = _joint_states(len(unit_names) - 1)
         self._scalars = [Float64() for _ in unit_names for _ in SCALARS] if publish_scalars else []
@@ -51,6 +82,10 @@ class OutputMessages:
         self.types: dict[str, type] = {
             topic: type(message) for topic, message in zip(topics, self._messages, strict=True)
         }
+
+    def go_on_from(self, stamp: int, steering_angle: float) -> None:
+        """Take up a run after a sample of a stamp in ns: the steering rate is told from one to the next."""
+        self._last_steering = stamp, steering_angle
 
     def serialised(self, sample: Sample, stamp: int) -> Iterator[bytes]:
         """Messages of a sample in CDR, all with one stamp in ns, in the order of `types`."""
@@ -70,11 +105,12 @@ class OutputMessages:
             sample.lateral_velocity.tolist(),
             sample.lateral_acceleration.tolist(),
         )
+        noise = self._noise.of_step(sample.step, len(yaw))
         for index, (imu, odometry) in enumerate(zip(self._imus, self._odometries, strict=True)):
-            for orientation in (imu.orientation, odometry.pose.pose.orientation):
-                _turn(orientation, yaw[index])
-            imu.angular_velocity.z = yaw_rate[index]
-            imu.linear_acceleration.y = acceleration[index]
+            turn(imu.orientation, yaw[index] + noise[0][index])
+            imu.angular_velocity.z = yaw_rate[index] + noise[1][index]
+            imu.linear_acceleration.y = acceleration[index] + noise[2][index]
+            turn(odometry.pose.pose.orientation, yaw[index])
             odometry.pose.pose.position.x = x[index]
             odometry.pose.pose.position.y = y[index]
             odometry.twist.twist.linear.x = sample.speed
@@ -110,10 +146,17 @@ def type_name(message_class: Any) -> str:  # noqa: ANN401 - generated classes sh
     return f"{message_class.__module__.split('.')[0]}/msg/{message_class.__name__}"
 
 
-def _imu(unit_name: str) -> Imu:
+def _imu(unit_name: str, noise: Noise) -> Imu:
     message = Imu()
     message.header.frame_id = unit_name
     message.linear_acceleration.z = STANDARD_GRAVITY
+    # All zeros mean that a covariance is not known (REP-145); without noise there is none to know.
+    for covariance, deviation in (
+        (message.orientation_covariance, noise.yaw),
+        (message.angular_velocity_covariance, noise.yaw_rate),
+        (message.linear_acceleration_covariance, noise.lateral_acceleration),
+    ):
+        covariance[::4] = deviation**2
     return message
 
 
@@ -133,6 +176,7 @@ def _joint_states(joints: int) -> JointState:
     return message
 
 
-def _turn(orientation: Quaternion, yaw: float) -> None:
+def turn(orientation: Quaternion, yaw: float) -> None:
+    """Set an orientation to a yaw in rad."""
     orientation.z = math.sin(0.5 * yaw)
     orientation.w = math.cos(0.5 * yaw)

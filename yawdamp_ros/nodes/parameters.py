@@ -1,21 +1,29 @@
 """Parameters of the simulator node: declared once, for the node, its help and the README."""
 
 import difflib
+import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 from yawdamp_ros.dynamics import MODELS
-from yawdamp_ros.manoeuvres import MANOEUVRES
+from yawdamp_ros.logs.steering_mcap import STEERING_TYPES
+from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.nodes.errors import NodeError
 
 UNSET = float("nan")
 """A number that was not given: the manoeuvre's own default counts."""
+SLOWEST = 0.1
+"""Least real_time_factor; slower, a pause and single steps serve better."""
+FASTEST_RATE = 1e4
+"""Samples a second of real time that a node can be asked for."""
 _TYPE_NAMES = {
     bool: "true or false",
+    int: "an integer",
     float: "a double",
     str: "a string",
     list: "a list of strings",
@@ -50,22 +58,47 @@ class SimParameters:
     speed: float = _parameter(
         0.0, "longitudinal speed in m/s; 0: the vehicle's own", limits=(0.0, 70.0), dynamic=True
     )
+    speed_source: str = _parameter(
+        "parameter", "whose speed counts: this parameter's or the topic's", choices=("parameter", "topic")
+    )
     step_size: float = _parameter(0.001, "fixed integration step in s", limits=(1e-6, 1.0))
     publish_rate: float = _parameter(100.0, "samples a second of simulated time, in Hz", limits=(0.1, 1e4))
-    publish_scalars: bool = _parameter(
-        default=True, description="also publish yaw, yaw_rate and lateral_acceleration as Float64"
+    real_time_factor: float = _parameter(
+        1.0,
+        "simulated over real time, 0.1 to 100; 0: as fast as it goes",
+        limits=(0.0, 100.0),
+        dynamic=True,
     )
+    steering_type: str = _parameter(
+        "std_msgs/msg/Float64", "message type of the steering topic", choices=STEERING_TYPES
+    )
+    steering_joint: str = _parameter("steering", "joint that steers, where the type is JointState")
     steering_ratio: float = _parameter(
         1.0, "steering command over road-wheel angle; 1: road-wheel commands", limits=(1e-3, 1e3)
     )
     max_steering_angle: float = _parameter(
-        0.8, "road-wheel angle in rad past which a command is clamped", limits=(0.0, 1.5)
+        0.8, "road-wheel angle in rad past which a command is clamped", limits=(0.0, 1.5), dynamic=True
+    )
+    max_steering_age: float = _parameter(
+        0.5,
+        "farthest in s that a command's stamp may be from now, past or future; 0: any",
+        limits=(0.0, 1e6),
+        dynamic=True,
     )
     steering_timeout: float = _parameter(
-        0.5, "silence in s of simulated time after which on_steering_timeout counts", limits=(0.0, 1e6)
+        0.5,
+        "silence in s of simulated time after which on_steering_timeout counts",
+        limits=(0.0, 1e6),
+        dynamic=True,
     )
     on_steering_timeout: str = _parameter(
-        "hold", "after a silence: hold the last command, or zero", choices=("hold", "zero")
+        "hold", "after a silence: hold the last command, or zero", choices=("hold", "zero"), dynamic=True
+    )
+    steering_time_constant: float = _parameter(
+        0.0, "first-order lag of the road wheels in s; 0: none", limits=(0.0, 10.0)
+    )
+    steering_rate_limit: float = _parameter(
+        0.0, "fastest turn of the road wheels in rad/s; 0: any", limits=(0.0, 100.0)
     )
     manoeuvre: str = _parameter(
         "none", "steering of the node's own, in place of the topic", choices=("none", *MANOEUVRES)
@@ -81,10 +114,50 @@ class SimParameters:
     duration: float = _parameter(
         0.0, "simulated time in s after which the node ends; 0: none", limits=(0.0, 1e9)
     )
-    record: bool = _parameter(default=True, description="record the run")
+    publish_scalars: bool = _parameter(
+        default=True, description="also publish yaw, yaw_rate and lateral_acceleration as Float64"
+    )
+    publish_clock: bool = _parameter(default=False, description="publish simulated time on /clock")
+    publish_markers: bool = _parameter(default=False, description="publish the units as markers")
+    publish_tf: bool = _parameter(
+        default=True, description="publish the units on /tf, where tf2_msgs is installed"
+    )
+    yaw_stddev: float = _parameter(0.0, "of the noise on imu's yaw, rad", limits=(0.0, 1.0))
+    yaw_rate_stddev: float = _parameter(0.0, "of the noise on imu's yaw rate, rad/s", limits=(0.0, 1.0))
+    lateral_acceleration_stddev: float = _parameter(
+        0.0, "of the noise on imu's lateral acceleration, m/s^2", limits=(0.0, 10.0)
+    )
+    noise_seed: int = _parameter(0, "of the noise: the same seed gives the same noise")
+    record: bool = _parameter(default=True, description="record the run from its start")
     record_directory: str = _parameter(
         "", "directory of the run, which must not exist; empty: runs/<stamp>_<vehicle>"
     )
+
+    def problem(self) -> str:
+        """What is wrong with these values taken together; empty if nothing is."""
+        if 0.0 < self.real_time_factor < SLOWEST:
+            return f"real_time_factor: {self.real_time_factor}: expected 0, or {SLOWEST} to 100"
+        if self.publish_rate * max(self.real_time_factor, 1.0) > FASTEST_RATE:
+            return (
+                f"real_time_factor: {self.real_time_factor}: with publish_rate {self.publish_rate} "
+                f"expected at most {FASTEST_RATE:g} samples a second"
+            )
+        if self.speed_source == "topic" and self.speed_given:
+            return f"speed: {self.speed}: speed_source is topic; expected 0, or speed_source parameter"
+        if self.manoeuvre == "none" and self.manoeuvre_settings:
+            return f"{next(iter(self.manoeuvre_settings))}: there is no manoeuvre to use it"
+        return ""
+
+    @property
+    def speed_given(self) -> bool:
+        """Whether a speed other than the vehicle's own was asked for."""
+        return self.speed > 0.0
+
+    @property
+    def manoeuvre_settings(self) -> dict[str, float]:
+        """Settings of the manoeuvre that were given."""
+        given = {name: getattr(self, name) for name in SETTINGS}
+        return {name: value for name, value in given.items() if not math.isnan(value)}
 
 
 def declare_parameters(node: Node) -> SimParameters:
@@ -111,7 +184,30 @@ def declare_parameters(node: Node) -> SimParameters:
     values = {}
     for name, default in defaults.items():
         values[name] = node.declare_parameter(name, default, _descriptor(described[name])).value
-    return SimParameters(**values)
+    settings = SimParameters(**values)
+    if problem := settings.problem():
+        message = f"parameter {problem}"
+        raise NodeError(message)
+    return settings
+
+
+def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimParameters:
+    """Settings with some parameters changed together, as a running node is asked for.
+
+    Raises
+    ------
+    NodeError
+        If one of them, or all of them together, cannot be; then none of them counts.
+    """
+    described = {declared.name: declared.metadata for declared in fields(SimParameters)}
+    wanted = {parameter.name: parameter.value for parameter in parameters if parameter.name in described}
+    for name, value in wanted.items():
+        _check(name, value, getattr(settings, name), described[name])
+    new = replace(settings, **wanted)
+    if problem := new.problem():
+        message = f"parameter {problem}"
+        raise NodeError(message)
+    return new
 
 
 def _check(name: str, value: Any, default: Any, described: Mapping[str, Any]) -> None:  # noqa: ANN401

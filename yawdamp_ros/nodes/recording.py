@@ -12,7 +12,6 @@ from typing import Self
 import numpy as np
 import scipy
 
-from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.logs import Channel, RunWriter
 from yawdamp_ros.nodes.messages import (
     INPUT_TYPES,
@@ -20,7 +19,7 @@ from yawdamp_ros.nodes.messages import (
     serialised_input,
     type_name,
 )
-from yawdamp_ros.stepping import Sample, TimeGrid
+from yawdamp_ros.stepping import Sample, Stepper, TimeGrid
 from yawdamp_ros.vehicle import VehicleSource
 
 INPUT_CHANNELS = tuple(INPUT_TYPES)
@@ -33,7 +32,7 @@ METADATA_NAME = "yawdamp_ros"
 def open_run(  # noqa: PLR0913 - each is one part of what explains a run
     directory: Path,
     outputs: OutputMessages,
-    model: LinearModel,
+    stepper: Stepper,
     grid: TimeGrid,
     *,
     start_time: int,
@@ -47,7 +46,8 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
     ----------
     directory : Path
     outputs : OutputMessages
-    model : LinearModel
+    stepper : Stepper
+        At the instant from which the run goes on.
     grid : TimeGrid
     start_time : int
         Stamp of step 0 in ns.
@@ -69,6 +69,7 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
     """
     types = [type_name(kind) for kind in (*INPUT_TYPES.values(), *outputs.types.values())]
     channels = [Channel(topic, name) for topic, name in zip(topics, types, strict=True)]
+    model = stepper.model
     inputs, outputs_ = topics[: len(INPUT_TYPES)], topics[len(INPUT_TYPES) :]
     metadata = {
         "vehicle": model.vehicle.name,
@@ -80,6 +81,7 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
         "start_time_ns": str(start_time),
         "input_topics": json.dumps(dict(zip(INPUT_TYPES, inputs, strict=True))),
         "output_topics": json.dumps(dict(zip(outputs.types, outputs_, strict=True))),
+        "initial": json.dumps(stepper.snapshot()._asdict()),
         "state_names": json.dumps(model.state_names),
         "state_matrix": json.dumps(model.state_matrix.tolist()),
         "input_matrix": json.dumps(model.input_matrix.tolist()),
@@ -126,7 +128,8 @@ class RunRecorder:
     Parameters
     ----------
     directory : Path
-    model : LinearModel
+    stepper : Stepper
+        At step 0.
     grid : TimeGrid
     parameters : mapping of str to object
     vehicle : VehicleSource
@@ -140,18 +143,18 @@ class RunRecorder:
     def __init__(
         self,
         directory: Path,
-        model: LinearModel,
+        stepper: Stepper,
         grid: TimeGrid,
         *,
         parameters: Mapping[str, object],
         vehicle: VehicleSource,
     ) -> None:
         self._grid = grid
-        self._outputs = OutputMessages(model.vehicle.unit_names, publish_scalars=True)
+        self._outputs = OutputMessages(stepper.model.vehicle.unit_names, publish_scalars=True)
         self._writer = open_run(
             directory,
             self._outputs,
-            model,
+            stepper,
             grid,
             start_time=0,
             parameters=parameters,

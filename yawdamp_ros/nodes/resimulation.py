@@ -11,9 +11,9 @@ from rclpy.serialization import deserialize_message
 
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.logs import LogError, McapLog, RecordedMessage
-from yawdamp_ros.nodes.messages import OutputMessages
+from yawdamp_ros.nodes.messages import Noise, OutputMessages
 from yawdamp_ros.nodes.recording import METADATA_NAME, VEHICLE_FILE, build_of_numerics
-from yawdamp_ros.stepping import AppliedInput, Stepper
+from yawdamp_ros.stepping import AppliedInput, Snapshot, Stepper
 from yawdamp_ros.stepping.time_grid import SECOND
 from yawdamp_ros.vehicle import parse_vehicle
 
@@ -91,8 +91,16 @@ class Resimulation:
             self._step_ns, self._start_time = int(known["step_ns"]), int(known["start_time_ns"])
             self._inputs = {topic: name for name, topic in json.loads(known["input_topics"]).items()}
             self._outputs: Mapping[str, str] = json.loads(known["output_topics"])
+            self._initial = Snapshot(**json.loads(known["initial"]))
+            parameters = json.loads(known["parameters"])
+            self._noise = Noise(
+                parameters.get("yaw_stddev", 0.0),
+                parameters.get("yaw_rate_stddev", 0.0),
+                parameters.get("lateral_acceleration_stddev", 0.0),
+                parameters.get("noise_seed", 0),
+            )
             self.recorded_build = known["build"]
-        except (KeyError, ValueError, UnicodeDecodeError) as error:
+        except (KeyError, ValueError, TypeError) as error:
             raise LogError(path, f"not a run of this package, or not a whole one: {error}") from error
         self.build = build_of_numerics()
         self.promised = self.build == self.recorded_build
@@ -121,9 +129,7 @@ class Resimulation:
         float
             Simulated time of each sample, in s.
         """
-        scalars = any(name.endswith("/yaw") for name in self._outputs)
-        outputs = OutputMessages(self._model.vehicle.unit_names, publish_scalars=scalars)
-        stepper = Stepper(self._model, self._step_ns / SECOND)
+        outputs, stepper = self._at_the_start()
         pending: dict[int, list[AppliedInput]] = {}
 
         def drive(stepper: Stepper) -> None:
@@ -150,6 +156,18 @@ class Resimulation:
                         return
                 self.samples += 1
                 yield self.duration
+
+    def _at_the_start(self) -> tuple[OutputMessages, Stepper]:
+        """What the messages and the model were when the recording began."""
+        scalars = any(name.endswith("/yaw") for name in self._outputs)
+        names = self._model.vehicle.unit_names
+        outputs = OutputMessages(names, publish_scalars=scalars, noise=self._noise)
+        stepper = Stepper(self._model, self._step_ns / SECOND)
+        stepper.restore(self._initial)
+        if self._initial.step:  # a recording that began later goes on from the sample before it
+            stamp = self._start_time + self._initial.step * self._step_ns
+            outputs.go_on_from(stamp, stepper.steering_angle)
+        return outputs, stepper
 
     def _all_messages(self) -> Iterator[RecordedMessage]:
         return chain([self._first] if self._first is not None else [], self._messages)

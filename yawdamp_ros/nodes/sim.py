@@ -1,36 +1,51 @@
 """The simulator node: a timer, fixed steps, messages out."""
 
-import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
-from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
+from yawdamp_ros.analysis import least_damping_ratio
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.dynamics import LinearModel, linear_model
-from yawdamp_ros.logs import BackgroundWriter, default_run_directory
-from yawdamp_ros.manoeuvres import SETTINGS, make_manoeuvre
+from yawdamp_ros.logs import LogError, RunWriter, default_run_directory
+from yawdamp_ros.manoeuvres import make_manoeuvre
+from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
 from yawdamp_ros.nodes.errors import NodeError
-from yawdamp_ros.nodes.messages import INPUT_TYPES, OutputMessages
-from yawdamp_ros.nodes.parameters import SimParameters, declare_parameters
+from yawdamp_ros.nodes.messages import INPUT_TYPES
+from yawdamp_ros.nodes.outputs import Outputs
+from yawdamp_ros.nodes.parameters import SimParameters, changed, declare_parameters
+from yawdamp_ros.nodes.recorder import Recorder
 from yawdamp_ros.nodes.recording import open_run, run_messages
-from yawdamp_ros.stepping import Pacer, SteeringInput, Stepper, TimeGrid
-from yawdamp_ros.stepping.time_grid import SECOND
+from yawdamp_ros.nodes.subscriptions import SteeringSubscription, subscribe_speed
+from yawdamp_ros.stepping import (
+    Pacer,
+    SpeedInput,
+    SteeringActuator,
+    SteeringInput,
+    Stepper,
+    TimeGrid,
+    Verdict,
+)
+from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
 from yawdamp_ros.vehicle import VehicleSource, load_vehicle, vehicle_text
 
-QUEUE_DEPTH = 10
 CATCH_UP_NS = SECOND // 10
 """Longest delay that is made up for by steps in a burst; more is given up, and counted."""
+LEAST_CATCH_UP = 10
+"""Sample periods that are made up for even where they are longer than that."""
 WARNING_PERIOD = 5.0
 """Seconds between warnings of one kind."""
+DIAGNOSTICS_PERIOD = 1.0
+"""Seconds of real time."""
 
 
 class SimNode(Node):
@@ -58,40 +73,32 @@ class SimNode(Node):
         self.peaks = Peaks(len(self.model.vehicle.units))
         self.steps_given_up = 0
         self.samples_published = 0
-        self._stepper = Stepper(self.model, self.grid.step_size)
-        self._input = SteeringInput(
-            ratio=self.settings.steering_ratio,
-            limit=self.settings.max_steering_angle,
-            timeout_steps=int(self.settings.steering_timeout * SECOND) // self.grid.step_ns,
-            zero_on_timeout=self.settings.on_steering_timeout == "zero",
-        )
-        self._steering = self._steering_source()
-        self._outputs = OutputMessages(
-            self.model.vehicle.unit_names, publish_scalars=self.settings.publish_scalars
-        )
-        self._output_publishers = [
-            self.create_publisher(kind, topic, QUEUE_DEPTH) for topic, kind in self._outputs.types.items()
-        ]
-        self._new_speed: float | None = None
+        self._worst_lateness = 0.0
         self._reset_wanted = False
-        self.add_post_set_parameters_callback(self._on_parameters)
-        self.create_service(Trigger, "~/reset", self._on_reset)
-        self.create_service(SetBool, "~/pause", self._on_pause)
-        self.create_service(Trigger, "~/step", self._on_step)
-        self._start_time = self.get_clock().now().nanoseconds
-        self.recorder = self._open_recorder() if self.settings.record else None
-
-    @property
-    def samples_wanted(self) -> int | None:
-        """Samples after which the run is over; None if it is not."""
-        if not self.settings.duration:
-            return None
-        return 1 + self.grid.samples_in(self.settings.duration)
+        self._stepper = Stepper(self.model, self.grid.step_size)
+        self._speed = SpeedInput(self.model.speed)
+        self._input = SteeringInput(ratio=self.settings.steering_ratio, **_of_input(self.settings, self.grid))
+        self._actuator = SteeringActuator(
+            self.grid.step_size,
+            self.settings.steering_time_constant,
+            self.settings.steering_rate_limit,
+        )
+        self._command = self._command_source()
+        if self.settings.speed_source == "topic":
+            subscribe_speed(self, self._speed)
+        self._outputs = Outputs(self, self.model.vehicle, self.settings)
+        if self.settings.publish_tf and self._outputs.without_tf:
+            self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
+        self._start_time: int = self.get_clock().now().nanoseconds
+        self.recorder = Recorder(self._open_run)
+        if self.settings.record:
+            self._start_recording(self.settings.record_directory)
 
     @property
     def finished(self) -> bool:
         """Whether the run has lasted as long as it was to."""
-        return self.samples_wanted is not None and self.samples_published >= self.samples_wanted
+        duration = self.settings.duration
+        return bool(duration) and self.samples_published > self.grid.samples_in(duration)
 
     @property
     def simulated_time(self) -> float:
@@ -101,28 +108,33 @@ class SimNode(Node):
     def start(self) -> None:
         """Publish the first sample; from now on the steady clock counts."""
         self._publish(steps=0)
-        period = self.grid.period_ns
+        period, rate = self.grid.period_ns, self.settings.real_time_factor
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
-        self._pacer = Pacer(period, max(CATCH_UP_NS // period, QUEUE_DEPTH), time.monotonic_ns())
-        self._timer = self.create_timer(
-            period / SECOND,
-            self._on_timer,
-            clock=Clock(clock_type=ClockType.STEADY_TIME),
-        )
+        most = max(int(CATCH_UP_NS * max(rate, 1.0)) // period, LEAST_CATCH_UP)
+        self._pacer = Pacer(period, most, rate, time.monotonic_ns())
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self.create_timer(self._timer_period(), self._on_timer, clock=steady)
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self.add_post_set_parameters_callback(self._use_parameters)
+        self.create_service(Trigger, "~/reset", self._on_reset)
+        self.create_service(SetBool, "~/pause", self._on_pause)
+        self.create_service(Trigger, "~/step", self._on_step)
+        self.create_service(SetBool, "~/record", self._on_record)
+        self._diagnosis = Diagnosis(self.get_fully_qualified_name(), self.model.vehicle.name)
+        self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._looked_at = time.monotonic_ns()
+        self.create_timer(DIAGNOSTICS_PERIOD, self._diagnose, clock=steady)
 
     def close(self) -> None:
         """Finish the recording and let subscribers have what was published."""
-        if self.recorder is not None:
-            self.recorder.close()
-            if self.recorder.failure is not None:
-                self.get_logger().error(
-                    f"{self.recorder.failure}; {self.recorder.lost} messages not recorded"
-                )
-        for publisher in self._output_publishers:
-            publisher.wait_for_all_acked(Duration(seconds=1))
+        self.recorder.stop()
+        if self.recorder.failure is not None:
+            self.get_logger().error(f"{self.recorder.failure}; {self.recorder.lost} messages not recorded")
+        self._outputs.wait_for_subscribers()
 
     def _on_timer(self) -> None:
         due = self._pacer.due(time.monotonic_ns())
+        self._worst_lateness = max(self._worst_lateness, due.lateness / SECOND)
         if due.given_up:
             self.steps_given_up += due.given_up * self.grid.steps_per_sample
             self.get_logger().warning(
@@ -143,49 +155,69 @@ class SimNode(Node):
         if self._reset_wanted:
             stepper.reset()
             self._reset_wanted = False
-        if self._new_speed is not None:
-            stepper.change_speed(self._new_speed)
-            self._new_speed = None
-        stepper.steer(self._steering(stepper.step))
+        stepper.change_speed(self._speed.speed)
+        stepper.steer(self._actuator.follow(self._command(stepper.step)))
 
     def _publish(self, steps: int) -> None:
         sample = self._stepper.run(steps, self._drive)
-        stamp = self._start_time + sample.step * self.grid.step_ns
-        outputs = list(self._outputs.serialised(sample, stamp))
-        for publisher, data in zip(self._output_publishers, outputs, strict=True):
-            publisher.publish(data)
+        stamp = self._stamp(sample.step)
+        serialised = self._outputs.publish(sample, stamp)
         self.samples_published += 1
         self.peaks.update(sample)
-        if self.recorder is not None:
-            for message in run_messages(sample, outputs, self.grid, self._start_time):
+        if self.recorder.recording:
+            for message in run_messages(sample, serialised, self.grid, self._start_time):
                 self.recorder.offer(*message)
             if self.recorder.lost:
-                self._warn_of_lost(self.recorder)
+                reason = self.recorder.failure or "the disk does not keep up"
+                self.get_logger().error(
+                    f"{reason}; {self.recorder.lost} messages not recorded, the simulation goes on",
+                    throttle_duration_sec=WARNING_PERIOD,
+                )
 
-    def _warn_of_lost(self, recorder: BackgroundWriter) -> None:
-        reason = recorder.failure or "the disk does not keep up"
-        self.get_logger().error(
-            f"{reason}; {recorder.lost} messages not recorded, the simulation goes on",
-            throttle_duration_sec=WARNING_PERIOD,
+    def _stamp(self, step: int) -> int:
+        return self._start_time + step * self.grid.step_ns
+
+    def _now(self) -> int:
+        """Time that the stamps of commands are held against: what their senders' clock shows."""
+        if self.settings.publish_clock:
+            return self._stamp(self._stepper.step)
+        clock_time: int = self.get_clock().now().nanoseconds
+        return clock_time
+
+    def _timer_period(self) -> float:
+        rate = self.settings.real_time_factor
+        return self.grid.period_ns / SECOND / rate if rate else 0.0
+
+    def _command_source(self) -> Callable[[int], float]:
+        if self.settings.manoeuvre != "none":
+            manoeuvre = make_manoeuvre(self.settings.manoeuvre, self.settings.manoeuvre_settings)
+            return lambda step: manoeuvre(self.grid.seconds(step))
+        self._subscription = SteeringSubscription(
+            self,
+            self.settings.steering_type,
+            self.settings.steering_joint,
+            self._input,
+            step=lambda: self._stepper.step,
+            now=self._now,
         )
+        return self._input.at
 
-    def _on_steering(self, message: Float64) -> None:
-        clamped = self._input.clamped
-        if not self._input.offer(message.data, self._stepper.step):
-            self.get_logger().warning(
-                f"steering: {message.data}: not a finite angle; {self._input.rejected} rejected so far",
-                throttle_duration_sec=WARNING_PERIOD,
-            )
-        elif self._input.clamped > clamped:
-            self.get_logger().warning(
-                f"steering: {message.data}: clamped to max_steering_angle, {self._input.clamped} so far",
-                throttle_duration_sec=WARNING_PERIOD,
-            )
+    def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
+        try:
+            changed(self.settings, parameters)
+        except NodeError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
 
-    def _on_parameters(self, parameters: list[Parameter]) -> None:
-        for parameter in parameters:
-            if parameter.name == "speed":
-                self._new_speed = parameter.value or self.model.vehicle.speed
+    def _use_parameters(self, parameters: list[Parameter]) -> None:
+        before, self.settings = self.settings, changed(self.settings, parameters)
+        if self.settings.speed != before.speed:
+            self._speed.speed = self.settings.speed or self.model.vehicle.speed
+        for name, value in _of_input(self.settings, self.grid).items():
+            setattr(self._input, name, value)
+        if self.settings.real_time_factor != before.real_time_factor:
+            self._pacer.change_rate(self.settings.real_time_factor, time.monotonic_ns())
+            self._timer.timer_period_ns = nanoseconds(self._timer_period())
 
     def _on_reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._reset_wanted = True
@@ -201,7 +233,7 @@ class SimNode(Node):
         return response
 
     def _on_step(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        response.success = self._pacer.paused
+        response.success = self._pacer.paused and not self.finished
         if response.success:
             self._advance()
             response.message = f"simulated time {self.simulated_time:.9g} s"
@@ -209,38 +241,65 @@ class SimNode(Node):
             response.message = "not paused: steps are for a simulation that stands"
         return response
 
-    def _steering_source(self) -> Callable[[int], float]:
-        given = {name: value for name in SETTINGS if not math.isnan(value := getattr(self.settings, name))}
-        if self.settings.manoeuvre != "none":
-            manoeuvre = make_manoeuvre(self.settings.manoeuvre, given)
-            return lambda step: manoeuvre(self.grid.seconds(step))
-        if given:
-            message = f"parameter {next(iter(given))}: there is no manoeuvre to use it"
-            raise NodeError(message)
-        self.create_subscription(Float64, "steering", self._on_steering, QUEUE_DEPTH)
-        return self._input.at
+    def _on_record(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        try:
+            if request.data:
+                self._start_recording("")
+            else:
+                self.recorder.stop()
+        except LogError as error:
+            response.success, response.message = False, str(error)
+            return response
+        response.success, response.message = self.recorder.failure is None, self.recorder.state
+        return response
 
-    def _open_recorder(self) -> BackgroundWriter:
-        directory = (
-            Path(self.settings.record_directory)
-            if self.settings.record_directory
-            else default_run_directory(self.model.vehicle.name)
-        )
-        run = open_run(
+    def _start_recording(self, directory: str) -> None:
+        path = Path(directory) if directory else default_run_directory(self.model.vehicle.name)
+        self.recorder.start(path)
+        self.get_logger().info(f"recording to {path}")
+
+    def _open_run(self, directory: Path) -> RunWriter:
+        source = VehicleSource(vehicle_text(self.settings.vehicle), _vehicle_overrides(self.settings))
+        return open_run(
             directory,
-            self._outputs,
-            self.model,
+            self._outputs.messages,
+            self._stepper,
             self.grid,
             start_time=self._start_time,
             parameters=asdict(self.settings),
-            vehicle=VehicleSource(vehicle_text(self.settings.vehicle), _vehicle_overrides(self.settings)),
-            topics=[
-                *(self.resolve_topic_name(name) for name in INPUT_TYPES),
-                *(publisher.topic_name for publisher in self._output_publishers),
-            ],
+            vehicle=source,
+            topics=[*(self.resolve_topic_name(name) for name in INPUT_TYPES), *self._outputs.topics],
         )
-        self.get_logger().info(f"recording to {directory}")
-        return BackgroundWriter(run)
+
+    def _diagnose(self) -> None:
+        now = time.monotonic_ns()
+        elapsed, self._looked_at = (now - self._looked_at) / SECOND, now
+        silence = self._input.silence(self._stepper.step)
+        refused = {
+            verdict.value: count
+            for verdict, count in self._input.counts.items()
+            if verdict is not Verdict.TAKEN
+        }
+        refused |= {"speed refused": self._speed.rejected, "speed clamped": self._speed.clamped}
+        readings = Readings(
+            samples=self.samples_published,
+            rate_wanted=self.settings.publish_rate * self.settings.real_time_factor,
+            worst_lateness=self._worst_lateness,
+            steps_given_up=self.steps_given_up,
+            simulated_time=self.simulated_time,
+            paused=self._pacer.paused,
+            steering_silence=None if silence is None else self.grid.seconds(silence),
+            steering_timed_out=self._input.timed_out(self._stepper.step),
+            steering_source=self.settings.manoeuvre.replace("none", "topic"),
+            refused=refused,
+            recorder=self.recorder.state,
+            messages_lost=self.recorder.lost,
+            least_damping_ratio=least_damping_ratio(self._stepper.model),
+            speed=self._stepper.model.speed,
+        )
+        self._worst_lateness = 0.0
+        stamp = self.get_clock().now().nanoseconds
+        self._diagnostics.publish(self._diagnosis.of(readings, elapsed, stamp))
 
 
 def _model(settings: SimParameters) -> LinearModel:
@@ -250,3 +309,13 @@ def _model(settings: SimParameters) -> LinearModel:
 
 def _vehicle_overrides(settings: SimParameters) -> tuple[str, ...]:
     return tuple(override for override in settings.vehicle_overrides if override)
+
+
+def _of_input(settings: SimParameters, grid: TimeGrid) -> dict[str, Any]:
+    """What of the settings a `SteeringInput` goes by while running."""
+    return {
+        "limit": settings.max_steering_angle,
+        "timeout_steps": nanoseconds(settings.steering_timeout) // grid.step_ns,
+        "zero_on_timeout": settings.on_steering_timeout == "zero",
+        "max_age": settings.max_steering_age,
+    }

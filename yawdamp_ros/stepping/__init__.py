@@ -4,9 +4,10 @@ from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.pacer import Pacer
 from yawdamp_ros.stepping.response import Response, simulate
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
+from yawdamp_ros.stepping.speed_input import SpeedInput
 from yawdamp_ros.stepping.steering_actuator import SteeringActuator
-from yawdamp_ros.stepping.steering_input import SteeringInput
-from yawdamp_ros.stepping.stepper import Stepper
+from yawdamp_ros.stepping.steering_input import SteeringInput, Verdict
+from yawdamp_ros.stepping.stepper import Snapshot, Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
 
 __all__ = [
@@ -14,10 +15,13 @@ __all__ = [
     "Pacer",
     "Response",
     "Sample",
+    "Snapshot",
+    "SpeedInput",
     "SteeringActuator",
     "SteeringInput",
     "Stepper",
     "SteppingError",
     "TimeGrid",
+    "Verdict",
     "simulate",
 ]

@@ -12,57 +12,77 @@ class Due(NamedTuple):
         Sample periods to simulate now.
     given_up : int
         Periods that are too late to be made up for.
+    lateness : float
+        How far simulated time was behind, beyond the period that had just passed, in ns of the clock.
     """
 
     periods: int
     given_up: int
+    lateness: float
 
 
 class Pacer:
-    """Keeps simulated time beside a steady clock.
+    """Keeps simulated time beside a steady clock, at a rate.
 
     The clock is asked, not counted in callbacks: a timer skips the cycles that it misses.
 
     Parameters
     ----------
     period_ns : int
-        Sample period in ns.
+        Sample period in ns of simulated time.
     most : int
         Periods that are made up for at once; what is later than that is given up, so that a process that
         was stopped does not run through minutes in a burst.
+    rate : float
+        Simulated time over the clock's; 0: as fast as it goes.
     now : int
         Steady time of the first sample in ns.
     """
 
-    def __init__(self, period_ns: int, most: int, now: int) -> None:
+    def __init__(self, period_ns: int, most: int, rate: float, now: int) -> None:
         self._period_ns = period_ns
         self._most = most
-        self._origin = now
-        self._done = 0
-        self._paused_at: int | None = None
+        self._rate = rate
+        self._since = now
+        self._ahead = 0.0
+        self._paused = False
 
     @property
     def paused(self) -> bool:
         """Whether time stands."""
-        return self._paused_at is not None
+        return self._paused
 
     def pause(self, now: int) -> None:
         """Let time stand; a second time does nothing."""
-        if self._paused_at is None:
-            self._paused_at = now
+        self._bank(now)
+        self._paused = True
 
     def resume(self, now: int) -> None:
         """Let time go on where it stood."""
-        if self._paused_at is not None:
-            self._origin += now - self._paused_at
-            self._paused_at = None
+        self._bank(now)
+        self._paused = False
+
+    def change_rate(self, rate: float, now: int) -> None:
+        """Go on at another rate."""
+        self._bank(now)
+        self._rate = rate
 
     def due(self, now: int) -> Due:
         """Periods due at a steady time in ns; they count as simulated from now on."""
-        if self._paused_at is not None:
-            return Due(0, 0)
-        late = (now - self._origin) // self._period_ns - self._done
-        given_up = max(late - self._most, 0)
-        self._origin += given_up * self._period_ns
-        self._done += late - given_up
-        return Due(late - given_up, given_up)
+        if self._paused:
+            return Due(0, 0, 0.0)
+        if not self._rate:
+            return Due(self._most, 0, 0.0)
+        # Whole periods stay integers: over days, only what is left of one is a float.
+        self._bank(now)
+        periods = int(self._ahead // self._period_ns)
+        self._ahead -= periods * self._period_ns
+        given_up = max(periods - self._most, 0)
+        late = (max(periods - 1, 0) * self._period_ns + self._ahead) / self._rate if periods else 0.0
+        return Due(periods - given_up, given_up, late)
+
+    def _bank(self, now: int) -> None:
+        """Turn the time since the last look into simulated time that is due."""
+        if not self._paused:
+            self._ahead += (now - self._since) * self._rate
+        self._since = now

@@ -1,12 +1,23 @@
-"""What becomes of a steering command before it reaches the wheels."""
+"""What becomes of a steering command before it reaches the actuator."""
 
 import math
+from enum import Enum
+
+
+class Verdict(Enum):
+    """What was done with a command."""
+
+    TAKEN = "taken"
+    CLAMPED = "clamped to max_steering_angle"
+    NOT_FINITE = "refused, not a finite angle"
+    STALE = "refused, its stamp is not of now"
 
 
 class SteeringInput:
     """The newest valid steering command, held, scaled, limited and timed out.
 
-    Time is counted in steps, so that a run repeats whatever the machine was doing.
+    Silence is counted in steps, so that a run repeats whatever the machine was doing. The attributes may
+    change while running.
 
     Parameters
     ----------
@@ -19,38 +30,59 @@ class SteeringInput:
         Steps of silence after which `zero_on_timeout` counts.
     zero_on_timeout : bool
         Whether silence returns the wheels to straight ahead; else the last command is held.
+    max_age : float
+        Farthest that a stamp may be from now, into the past or the future, in s; 0: any.
     """
 
-    def __init__(self, *, ratio: float, limit: float, timeout_steps: int, zero_on_timeout: bool) -> None:
-        self._ratio = ratio
-        self._limit = limit
-        self._timeout_steps = timeout_steps
-        self._zero_on_timeout = zero_on_timeout
+    def __init__(
+        self, *, ratio: float, limit: float, timeout_steps: int, zero_on_timeout: bool, max_age: float
+    ) -> None:
+        self.ratio = ratio
+        self.limit = limit
+        self.timeout_steps = timeout_steps
+        self.zero_on_timeout = zero_on_timeout
+        self.max_age = max_age
+        self.counts = dict.fromkeys(Verdict, 0)
         self._angle = 0.0
         self._received_at: int | None = None
-        self.rejected = 0
-        self.clamped = 0
 
-    def offer(self, command: float, step: int) -> bool:
-        """Take a command in rad that arrived after a step; return False if it was rejected.
+    def offer(self, command: float, step: int, age: float | None = None) -> Verdict:
+        """Take or refuse a command in rad that arrived after a step, and count which.
 
-        NaN and infinities are rejected and counted: the command before them stays.
+        Of a command that is refused nothing stays: the one before it is in force.
+
+        Parameters
+        ----------
+        command : float
+        step : int
+        age : float, optional
+            How long ago it was stamped, in s; None if it bears no stamp.
         """
-        if not math.isfinite(command):
-            self.rejected += 1
-            return False
-        angle = command / self._ratio
-        if abs(angle) > self._limit:
-            self.clamped += 1
-            angle = math.copysign(self._limit, angle)
-        self._angle = angle
-        self._received_at = step
-        return True
+        verdict, angle = self._judge(command, age)
+        self.counts[verdict] += 1
+        if verdict in {Verdict.TAKEN, Verdict.CLAMPED}:
+            self._angle, self._received_at = angle, step
+        return verdict
 
     def at(self, step: int) -> float:
-        """Road-wheel steer angle in rad in force from a step on."""
-        return 0.0 if self._zero_on_timeout and self.timed_out(step) else self._angle
+        """Road-wheel steer angle in rad asked for from a step on."""
+        return 0.0 if self.zero_on_timeout and self.timed_out(step) else self._angle
+
+    def silence(self, step: int) -> int | None:
+        """Steps since the last command; None before the first."""
+        return None if self._received_at is None else step - self._received_at
 
     def timed_out(self, step: int) -> bool:
         """Whether commands came once and have been silent for longer than the timeout."""
-        return self._received_at is not None and step - self._received_at > self._timeout_steps
+        silence = self.silence(step)
+        return silence is not None and silence > self.timeout_steps
+
+    def _judge(self, command: float, age: float | None) -> tuple[Verdict, float]:
+        if not math.isfinite(command):
+            return Verdict.NOT_FINITE, 0.0
+        if age is not None and self.max_age and abs(age) > self.max_age:
+            return Verdict.STALE, 0.0
+        angle = command / self.ratio
+        if abs(angle) > self.limit:
+            return Verdict.CLAMPED, math.copysign(self.limit, angle)
+        return Verdict.TAKEN, angle

@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Callable
-from typing import Literal
+from functools import lru_cache
+from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy.linalg import expm
@@ -10,6 +11,30 @@ from scipy.linalg import expm
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
+
+KNOWN_SPEEDS = 1024
+"""Speeds whose matrices are kept."""
+
+
+class Snapshot(NamedTuple):
+    """All that the future depends on, given the model's vehicle and the inputs to come.
+
+    Attributes
+    ----------
+    step : int
+    speed : float
+        In m/s.
+    vector : tuple of float
+        State, yaw of the lead unit, held steer angle.
+    x, y : float
+        Of the lead unit's centre of gravity in the ground frame, m.
+    """
+
+    step: int
+    speed: float
+    vector: tuple[float, ...]
+    x: float
+    y: float
 
 
 class Stepper:
@@ -29,13 +54,16 @@ class Stepper:
     def __init__(self, model: LinearModel, step_size: float) -> None:
         self.step_size = step_size
         self.step = 0
+        self._vehicle, self._model_name = model.vehicle, model.model
         self._units = len(model.vehicle.units)
         self._hitches = model.vehicle.hitches
         self._inputs = [
             AppliedInput(0, "speed", model.speed),
             AppliedInput(0, "steering", 0.0),
         ]
-        self._use(model)
+        # A measured speed comes back to values it had: their matrices are computed once.
+        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(self._matrices)
+        self.model, self._transition = self._at_speed(model.speed)
         self._vector = np.zeros(len(self._transition))
         self._next = np.zeros_like(self._vector)
         self._stand_at_the_origin()
@@ -59,13 +87,15 @@ class Stepper:
     def change_speed(self, speed: float) -> None:
         """Set the longitudinal speed in m/s from this instant on; the state stays as it is.
 
+        The model follows a changing speed quasi-statically: at each speed it is the one of that speed.
+
         Raises
         ------
         DynamicsError
             If the speed is not positive and finite.
         """
         if speed != self.model.speed:
-            self._use(linear_model(self.model.vehicle, speed, self.model.model))
+            self.model, self._transition = self._at_speed(speed)
             self._set_ground_speed()
             self._note("speed", speed)
 
@@ -74,6 +104,19 @@ class Stepper:
         self._vector[:-1] = 0.0
         self._stand_at_the_origin()
         self._note("reset", 0.0)
+
+    def snapshot(self) -> Snapshot:
+        """What `restore` needs to go on from this instant."""
+        return Snapshot(self.step, self.model.speed, tuple(self._vector.tolist()), self._x, self._y)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
+        self.change_speed(snapshot.speed)
+        self.step = snapshot.step
+        self._vector[:] = snapshot.vector
+        self._x, self._y = snapshot.x, snapshot.y
+        self._set_ground_speed()
+        self._inputs = []
 
     def apply(self, applied: AppliedInput) -> None:
         """Let a recorded input act from this instant on."""
@@ -150,9 +193,9 @@ class Stepper:
             self._inputs.pop()
         self._inputs.append(AppliedInput(self.step, name, value))
 
-    def _use(self, model: LinearModel) -> None:
-        self.model = model
-        self._transition = _transition(model, self.step_size)
+    def _matrices(self, speed: float) -> tuple[LinearModel, FloatArray]:
+        model = linear_model(self._vehicle, speed, self._model_name)
+        return model, _transition(model, self.step_size)
 
     def _stand_at_the_origin(self) -> None:
         self._x = self._y = 0.0

@@ -1,0 +1,133 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu
+from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import MarkerArray
+
+from graph import Graph, outcome, stamps, stop, until
+from runs import PERIOD, UNITS, recorded, run_directory
+from yawdamp_ros.cli import run
+
+pytestmark = pytest.mark.graph
+
+
+def test_clock_and_markers_bear_the_stamps_of_the_samples(graph: Graph) -> None:
+    graph.listen({"/clock": Clock, "/markers": MarkerArray, "/truck/imu": Imu})
+    parameters = ["-p", "publish_clock:=true", "-p", "publish_markers:=true"]
+    process = graph.command("sim", "--manoeuvre", "step", "--ros-args", *parameters)
+    until(lambda: all(len(graph.received[topic]) > 50 for topic in ("/clock", "/markers")), "samples")
+    assert graph.call("/yawdamp_sim/pause", SetBool, SetBool.Request(data=True)).success
+    assert stop(process)[0] == 0
+    samples = set(stamps([message for _, message in recorded(run_directory(graph.directory))["/truck/imu"]]))
+    clock = [message.clock.sec * 10**9 + message.clock.nanosec for message in graph.messages("/clock")]
+    assert np.diff(clock).tolist() == [PERIOD] * (len(clock) - 1)
+    assert set(clock) <= samples
+    boxes = graph.messages("/markers")[-1].markers
+    assert [box.id for box in boxes] == [0, 1, 2]
+    assert {box.header.frame_id for box in boxes} == {"odom"}
+    # The truck's box reaches from its rearmost to its foremost axle, 5.159 m, its middle behind the CG.
+    assert boxes[0].scale.x == pytest.approx(5.159)
+    assert boxes[0].pose.position.x > boxes[1].pose.position.x > boxes[2].pose.position.x
+
+
+def test_as_fast_as_it_goes_publishes_and_records_every_sample(graph: Graph) -> None:
+    parameters = ["--ros-args", "-p", "real_time_factor:=0.0"]
+    status, _, errors = outcome(graph.command("sim", "--manoeuvre", "sine", "--duration", "20", *parameters))
+    assert status == 0, errors
+    found = stamps([message for _, message in recorded(run_directory(graph.directory))["/truck/imu"]])
+    assert np.diff(found).tolist() == [PERIOD] * 2000
+    assert run(["resimulate", str(run_directory(graph.directory))]) == 0
+
+
+def test_the_rate_can_change_while_running(graph: Graph) -> None:
+    process = graph.command("sim")
+    statuses = graph.statuses()
+
+    def wanted() -> str:
+        return {value.key: value.value for value in statuses("timing").values}["wanted_rate"]
+
+    until(lambda: wanted() == "100.00 Hz", "the first look")
+    assert graph.set_parameter("/yawdamp_sim", "real_time_factor", 5.0).successful
+    until(lambda: wanted() == "500.00 Hz", "the new rate")
+    refused = graph.set_parameter("/yawdamp_sim", "real_time_factor", 0.05)
+    assert not refused.successful
+    assert "expected 0, or 0.1 to 100" in refused.reason
+    assert stop(process)[0] == 0
+    found = stamps([message for _, message in recorded(run_directory(graph.directory))["/truck/imu"]])
+    assert np.diff(found).tolist() == [PERIOD] * (len(found) - 1)
+
+
+def test_a_whole_set_of_parameters_is_refused_for_one_of_them(graph: Graph) -> None:
+    process = graph.command("sim")
+    until(lambda: graph.publishers("/truck/imu") == 1, "the node")
+    result = graph.set_parameters_atomically(
+        "/yawdamp_sim", {"max_steering_angle": 0.1, "on_steering_timeout": "panic"}
+    )
+    assert not result.successful
+    assert "on_steering_timeout: 'panic': expected one of hold, zero" in result.reason
+    assert graph.parameter("/yawdamp_sim", "max_steering_angle") == 0.8
+    assert graph.set_parameters_atomically(
+        "/yawdamp_sim", {"max_steering_angle": 0.1, "on_steering_timeout": "zero"}
+    ).successful
+    assert graph.parameter("/yawdamp_sim", "max_steering_angle") == 0.1
+    assert stop(process)[0] == 0
+
+
+def test_a_recording_can_be_stopped_and_started_and_each_part_repeats(graph: Graph) -> None:
+    process = graph.command(
+        "sim", "--no-record", "--manoeuvre", "chirp", "--ros-args", "-p", "yaw_rate_stddev:=0.01"
+    )
+    graph.listen({"/truck/imu": Imu})
+    until(lambda: len(graph.received["/truck/imu"]) > 50, "samples before any recording")
+    for _ in range(2):
+        assert graph.call("/yawdamp_sim/record", SetBool, SetBool.Request(data=True)).success
+        before = len(graph.received["/truck/imu"])
+        until(lambda before=before: len(graph.received["/truck/imu"]) > before + 120, "a second of samples")
+        answer = graph.call("/yawdamp_sim/record", SetBool, SetBool.Request(data=False))
+        assert (answer.success, answer.message) == (True, "idle")
+    assert stop(process)[0] == 0
+    runs = sorted((graph.directory / "runs").iterdir())
+    assert len(runs) == 2
+    for part in runs:
+        assert len(recorded(part)["/truck/imu"]) >= 100
+        assert run(["resimulate", str(part)]) == 0
+
+
+def test_noise_is_on_the_imu_alone_with_its_covariance_and_repeats(graph: Graph) -> None:
+    noise = ["yaw_stddev:=0.01", "yaw_rate_stddev:=0.02", "lateral_acceleration_stddev:=0.3", "noise_seed:=7"]
+    arguments = [word for parameter in noise for word in ("-p", parameter)]
+    process = graph.command("sim", "--duration", "5", "--ros-args", *arguments)
+    status, _, errors = outcome(process)
+    assert status == 0, errors
+    path = run_directory(graph.directory)
+    messages = recorded(path)
+    for unit in UNITS:
+        imu = [message for _, message in messages[f"/{unit}/imu"]]
+        assert np.std([message.angular_velocity.z for message in imu]) == pytest.approx(0.02, rel=0.15)
+        assert np.std([message.linear_acceleration.y for message in imu]) == pytest.approx(0.3, rel=0.15)
+        assert {message.angular_velocity_covariance[8] for message in imu} == {0.02**2}
+        assert {message.linear_acceleration_covariance[4] for message in imu} == {0.3**2}
+        assert {message.orientation_covariance[8] for message in imu} == {0.01**2}
+        assert {message.twist.twist.angular.z for _, message in messages[f"/{unit}/odom"]} == {0.0}
+        assert {message.data for _, message in messages[f"/{unit}/yaw_rate"]} == {0.0}
+    assert run(["resimulate", str(path)]) == 0
+
+
+def test_simulators_side_by_side_do_not_meet(graph: Graph) -> None:
+    graph.listen({f"/{side}/truck/imu": Imu for side in ("left", "right")})
+    processes = {
+        side: graph.command(
+            "sim", "--manoeuvre", "step", "--amplitude", amplitude, "--ros-args", "-r", f"__ns:=/{side}"
+        )
+        for side, amplitude in (("left", "0.05"), ("right", "-0.05"))
+    }
+    until(lambda: all(len(messages) > 150 for messages in graph.received.values()), "samples of both")
+    assert graph.call("/left/yawdamp_sim/reset", Trigger, Trigger.Request()).success
+    for process in processes.values():
+        assert stop(process)[0] == 0
+    assert graph.messages("/left/truck/imu")[150].angular_velocity.z > 0.0
+    assert all(message.angular_velocity.z <= 0.0 for message in graph.messages("/right/truck/imu"))
+    assert len(list(Path(graph.directory, "runs").iterdir())) == 2

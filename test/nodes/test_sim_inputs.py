@@ -1,0 +1,160 @@
+import math
+import signal
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+from builtin_interfaces.msg import Time
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Header
+
+from graph import Graph, outcome, stop, until
+from runs import recorded, run_directory
+from yawdamp_ros import load_vehicle
+
+pytestmark = pytest.mark.graph
+
+HOUR = 3600 * 10**9
+
+
+def joint_state(angle: float, stamp: int, joint: str = "wheel") -> JointState:
+    header = Header(stamp=Time(sec=stamp // 10**9, nanosec=stamp % 10**9))
+    return JointState(header=header, name=["other", joint], position=[9.0, angle])
+
+
+def steering_angle(graph: Graph) -> float:
+    return float(graph.messages("/joint_states")[-1].position[0])
+
+
+def started(graph: Graph, *parameters: str) -> Any:  # noqa: ANN401 - a process
+    graph.listen({"/joint_states": JointState})
+    arguments = [word for parameter in parameters for word in ("-p", parameter)]
+    process = graph.command("sim", "--ros-args", *arguments)
+    until(lambda: bool(graph.received["/joint_states"]), "a sample")
+    return process
+
+
+def test_a_joint_state_steers_and_a_stamp_that_is_not_of_now_is_refused(graph: Graph) -> None:
+    process = started(graph, "steering_type:=sensor_msgs/msg/JointState", "steering_joint:=wheel")
+    publisher = graph.publisher(JointState, "/steering")
+    publisher.publish(joint_state(0.1, time.time_ns()))
+    until(lambda: steering_angle(graph) == 0.1, "the joint's angle")
+    publisher.publish(joint_state(0.2, time.time_ns() - HOUR))
+    publisher.publish(joint_state(0.3, time.time_ns() + HOUR))
+    publisher.publish(joint_state(0.4, time.time_ns(), joint="front"))
+    publisher.publish(joint_state(-0.05, 0))  # no stamp at all
+    until(lambda: steering_angle(graph) == -0.05, "the last command")
+    status, _, errors = stop(process)
+    assert status == 0
+    assert "refused, its stamp is not of now" in errors
+    assert "no joint 'wheel' with a position" in errors
+    steering = recorded(run_directory(graph.directory))["/steering"]
+    assert [message.data for _, message in steering] == [0.0, 0.1, -0.05]
+
+
+@pytest.mark.parametrize(
+    "kind",
+    ["ackermann_msgs/msg/AckermannDriveStamped", "autoware_control_msgs/msg/Lateral"],
+)
+def test_a_type_that_is_not_installed_names_its_package(graph: Graph, kind: str) -> None:
+    package = kind.partition("/")[0]
+    if graph.installed(package):
+        pytest.skip(f"{package} is installed")
+    status, _, errors = outcome(graph.command("sim", "--ros-args", "-p", f"steering_type:={kind}"))
+    assert status == 2
+    assert f"{kind}: needs the package {package}, which is not installed" in errors
+
+
+def test_the_model_follows_the_speed_topic(graph: Graph) -> None:
+    process = started(graph, "speed_source:=topic")
+    publisher = graph.publisher(Float64, "/speed")
+
+    def speeds() -> list[float]:
+        return [message.data for _, message in recorded(run_directory(graph.directory))["/speed"]]
+
+    for speed in (15.0, 18.25, math.nan, -3.0, math.inf, 0.2):
+        publisher.publish(Float64(data=speed))
+        time.sleep(0.1)
+    status, _, errors = stop(process)
+    assert status == 0
+    assert "speed: nan: refused or clamped" in errors
+    assert speeds() == [load_vehicle("interlink").speed, 15.0, 18.25, 1.0]
+
+
+def test_a_speed_and_a_speed_topic_exclude_each_other(graph: Graph) -> None:
+    arguments = ["--speed", "20", "--ros-args", "-p", "speed_source:=topic"]
+    status, _, errors = outcome(graph.command("sim", *arguments))
+    assert status == 2
+    assert "speed: 20.0: speed_source is topic" in errors
+
+
+def test_the_actuator_lags_behind_the_command(graph: Graph) -> None:
+    process = started(graph, "steering_rate_limit:=0.5", "steering_time_constant:=0.1")
+    graph.steering_publisher().publish(Float64(data=0.2))
+    until(lambda: abs(steering_angle(graph) - 0.2) < 1e-4, "the command to be reached")
+    assert stop(process)[0] == 0
+    steering = recorded(run_directory(graph.directory))["/steering"]
+    angles = np.array([message.data for _, message in steering])
+    assert (np.diff(angles) > 0.0).all()
+    assert np.diff(angles).max() <= 0.0005 + 1e-12
+    assert len(angles) > 400  # 0.4 s at the rate limit, and the lag on top, step by step
+
+
+def test_diagnostics_warn_of_refused_and_of_missing_commands(graph: Graph) -> None:
+    process = started(graph)
+    statuses = graph.statuses()
+    until(lambda: statuses("steering").message == "no command yet", "the first look")
+    assert statuses("steering").level == b"\0"
+    publisher = graph.steering_publisher()
+    publisher.publish(Float64(data=math.nan))
+    until(lambda: "not a finite angle" in statuses("steering").message, "a warning of NaN")
+    assert statuses("steering").level == b"\1"
+    publisher.publish(Float64(data=5.0))
+    until(lambda: "clamped to max_steering_angle" in statuses("steering").message, "a warning of clamping")
+    until(lambda: "no command for longer" in statuses("steering").message, "a warning of silence")
+    assert statuses("steering").level == b"\1"
+    values = {value.key: value.value for value in statuses("steering").values}
+    assert values["clamped_to_max_steering_angle"] == "1"
+    assert values["refused,_not_a_finite_angle"] == "1"
+    assert float(values["age"].removesuffix(" s")) > 0.5
+    assert stop(process)[0] == 0
+
+
+def test_diagnostics_tell_of_time_model_and_recorder(graph: Graph) -> None:
+    process = started(graph)
+    statuses = graph.statuses()
+    until(lambda: statuses("timing").message == "in time", "the first look")
+    assert statuses("recorder").message.startswith("recording to runs/")
+    assert (statuses("model").level, statuses("model").message) == (b"\0", "stable")
+    values = {value.key: value.value for value in statuses("model").values}
+    assert values["least_damping_ratio"] == "0.6576"
+    assert values["speed"] == "22.2222 m/s"
+    process.send_signal(signal.SIGSTOP)
+    time.sleep(1.0)
+    process.send_signal(signal.SIGCONT)
+    until(
+        lambda: "steps given up since the last look" in statuses("timing").message, "a warning of lost time"
+    )
+    assert statuses("timing").level == b"\1"
+    until(lambda: statuses("timing").message == "in time", "good order again")
+    assert stop(process)[0] == 0
+
+
+def test_an_unstable_vehicle_is_warned_of(graph: Graph) -> None:
+    process = started(graph, "model:=published", "speed:=10.0")
+    statuses = graph.statuses()
+    until(lambda: statuses("model").message == "unstable: a mode grows", "the look at the model")
+    assert statuses("model").level == b"\1"
+    assert stop(process)[0] == 0
+
+
+def test_a_failing_disk_is_an_error(graph: Graph) -> None:
+    limited = ("bash", "-c", 'ulimit -f 40; trap "" XFSZ; exec "$@"', "bash")
+    process = graph.command("sim", "--manoeuvre", "chirp", under=limited)
+    statuses = graph.statuses()
+    until(lambda: statuses("recorder").message.startswith("failed: "), "the failure")
+    assert statuses("recorder").level == b"\2"
+    status, _, errors = stop(process)
+    assert status == 1
+    assert "Traceback" not in errors

@@ -1,0 +1,70 @@
+"""Recording, started and stopped while the simulation goes on."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from yawdamp_ros.logs import BackgroundWriter, LogError, RunWriter
+
+
+class Recorder:
+    """At most one run at a time is written; what became of the last one is kept.
+
+    Parameters
+    ----------
+    open_writer : callable
+        Starts a run in a directory that it is told.
+    """
+
+    def __init__(self, open_writer: Callable[[Path], RunWriter]) -> None:
+        self.directory: Path | None = None
+        self._open_writer = open_writer
+        self._writer: BackgroundWriter | None = None
+        self._lost_before = 0
+        self._last_failure: LogError | None = None
+
+    @property
+    def recording(self) -> bool:
+        """Whether a run is being written, or at least tried to be."""
+        return self._writer is not None
+
+    @property
+    def failure(self) -> LogError | None:
+        """Why the run that is being written, or else the last one, is not whole."""
+        return self._writer.failure if self._writer is not None else self._last_failure
+
+    @property
+    def lost(self) -> int:
+        """Messages that were not written, of all runs."""
+        return self._lost_before + (self._writer.lost if self._writer is not None else 0)
+
+    @property
+    def state(self) -> str:
+        """What diagnostics say of it."""
+        if self.failure is not None:
+            return f"failed: {self.failure}"
+        return f"recording to {self.directory}" if self.recording else "idle"
+
+    def start(self, directory: Path) -> None:
+        """Start a run.
+
+        Raises
+        ------
+        LogError
+            If the directory exists or cannot be written.
+        """
+        self.stop()
+        self._writer = BackgroundWriter(self._open_writer(directory))
+        self.directory, self._last_failure = directory, None
+
+    def stop(self) -> None:
+        """Finish the run that is being written, if there is one, and wait for that."""
+        if self._writer is not None:
+            self._writer.close()
+            self._lost_before += self._writer.lost
+            self._last_failure = self._writer.failure
+            self._writer = None
+
+    def offer(self, channel: int, log_time: int, data: bytes) -> None:
+        """Hand over a message; it is written if a run is."""
+        if self._writer is not None:
+            self._writer.offer(channel, log_time, data)

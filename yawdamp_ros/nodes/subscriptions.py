@@ -1,0 +1,112 @@
+"""What the simulator listens to."""
+
+import time
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+from rclpy.node import Node
+from std_msgs.msg import Float64
+
+from yawdamp_ros.logs.steering_mcap import STEERING_TYPES, message_stamp
+from yawdamp_ros.nodes.errors import NodeError
+from yawdamp_ros.stepping import SpeedInput, SteeringInput, Verdict
+from yawdamp_ros.stepping.time_grid import SECOND
+
+QUEUE_DEPTH = 10
+WARNING_PERIOD = 5.0
+"""Seconds between warnings of one kind."""
+
+
+def message_class(type_name: str) -> Any:  # noqa: ANN401 - generated classes share no base
+    """Class of a message type such as ``sensor_msgs/msg/JointState``.
+
+    Raises
+    ------
+    NodeError
+        If the package that defines it is not installed.
+    """
+    package, _, name = type_name.split("/")
+    try:
+        return getattr(import_module(f"{package}.msg"), name)
+    except (ImportError, AttributeError) as error:
+        message = f"parameter steering_type: {type_name}: needs the package {package}, which is not installed"
+        raise NodeError(message) from error
+
+
+class SteeringSubscription:
+    """Hands steering commands of any of the known types to a `SteeringInput`.
+
+    Parameters
+    ----------
+    node : Node
+    type_name : str
+        One of `STEERING_TYPES`.
+    joint : str
+        Joint that steers, where the type is JointState.
+    target : SteeringInput
+    step : callable
+        The newest simulated step.
+    now : callable
+        Time in ns that stamps are held against.
+
+    Raises
+    ------
+    NodeError
+        If the message package is not installed.
+    """
+
+    def __init__(  # noqa: PLR0913 - each is one thing that a command is judged by
+        self,
+        node: Node,
+        type_name: str,
+        joint: str,
+        target: SteeringInput,
+        *,
+        step: Callable[[], int],
+        now: Callable[[], int],
+    ) -> None:
+        self.without_joint = 0
+        self._warned_at: dict[Verdict | None, float] = {}
+        self._node = node
+        self._angle = STEERING_TYPES[type_name]
+        self._joint = joint
+        self._target = target
+        self._step = step
+        self._now = now
+        node.create_subscription(message_class(type_name), "steering", self._receive, QUEUE_DEPTH)
+
+    def _receive(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
+        command = self._angle(message, self._joint)
+        if command is None:
+            self.without_joint += 1
+            self._warn(None, f"no joint {self._joint!r} with a position, {self.without_joint} so far")
+            return
+        stamp = message_stamp(message)
+        age = (self._now() - stamp) / SECOND if stamp else None
+        verdict = self._target.offer(command, self._step(), age)
+        if verdict is not Verdict.TAKEN:
+            stamped = "" if age is None else f", stamped {age:.3g} s ago"
+            count = self._target.counts[verdict]
+            self._warn(verdict, f"{command}{stamped}: {verdict.value}, {count} so far")
+
+    def _warn(self, kind: Verdict | None, text: str) -> None:
+        # rclpy throttles by line of code; of two kinds of trouble neither may hide the other.
+        now = time.monotonic()
+        if now - self._warned_at.get(kind, -WARNING_PERIOD) >= WARNING_PERIOD:
+            self._warned_at[kind] = now
+            self._node.get_logger().warning(f"steering: {text}")
+
+
+def subscribe_speed(node: Node, target: SpeedInput) -> None:
+    """Hand the speed topic to a `SpeedInput`."""
+
+    def receive(message: Float64) -> None:
+        if not target.offer(message.data):
+            node.get_logger().warning(
+                f"speed: {message.data}: refused or clamped, "
+                f"{target.rejected} refused and {target.clamped} clamped so far",
+                throttle_duration_sec=WARNING_PERIOD,
+            )
+
+    node.create_subscription(Float64, "speed", receive, QUEUE_DEPTH)

@@ -1,0 +1,20 @@
+"""What a unit looks like from outside, as far as its file tells."""
+
+from yawdamp_ros.vehicle.model import Unit
+
+WIDTH = 2.5
+"""Of every unit in m: the usual width of heavy vehicles; a vehicle file does not say."""
+HEIGHT = 1.5
+"""Of every unit in m, for pictures only."""
+
+
+def extent(unit: Unit) -> tuple[float, float]:
+    """Rearmost and foremost axle or hitch of a unit, in m from its centre of gravity."""
+    hitches = [hitch for hitch in (unit.front_hitch, unit.rear_hitch) if hitch is not None]
+    positions = [*(axle.position for axle in unit.axles), *hitches]
+    return min(positions), max(positions)
+
+
+def hitch_frame(towed: str) -> str:
+    """Name of the frame at the front hitch of a towed unit, turned as the unit is."""
+    return f"{towed}_hitch"
