@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from rosbags.highlevel import AnyReader
 from sensor_msgs.msg import Imu
 
@@ -118,3 +119,42 @@ def test_a_ten_minute_log_does_not_drift(graph: Graph, say: SAY) -> None:
     node.terminate()
     node.communicate()
     say(output.splitlines()[-1])
+
+
+def test_time_keeps_up_for_a_minute_on_busy_cores_or_says_what_it_lost(graph: Graph, say: SAY) -> None:
+    work = "import time\nend = time.monotonic() + 100\nwhile time.monotonic() < end: pass"
+    load = [subprocess.Popen([sys.executable, "-c", work]) for _ in range(2)]
+    process = graph.command("sim", "--no-record")
+    looks: list[tuple[float, float, int]] = []
+
+    def look(array: DiagnosticArray) -> None:
+        values = {value.key: value.value for value in array.status[0].values}
+        stamp = array.header.stamp.sec + array.header.stamp.nanosec / 1e9
+        simulated = float(values["simulated_time"].removesuffix(" s"))
+        looks.append((stamp, simulated, int(values["steps_given_up"])))
+
+    graph.node.create_subscription(DiagnosticArray, "/diagnostics", look, 10)
+    try:
+        deadline = time.monotonic() + 90.0
+        while len(looks) < 61 and time.monotonic() < deadline:
+            time.sleep(0.1)
+    finally:
+        for busy in load:
+            busy.kill()
+            busy.wait()
+    process.terminate()
+    process.communicate()
+    first = looks[0]
+    # Simulated time and what was given up make up the time that went by, but for the sample under way.
+    behind = [
+        (stamp - first[0]) - (simulated - first[1]) - 0.001 * (given_up - first[2])
+        for stamp, simulated, given_up in looks[1:]
+    ]
+    say(
+        f"{len(looks) - 1} s on busy cores: {looks[-1][2]} steps given up; "
+        f"beyond them {1e3 * min(behind):.1f} to {1e3 * max(behind):.1f} ms behind, one sample being 10 ms"
+    )
+    # Nothing is lost for good without being counted: more than 0.1 s would have been given up.
+    assert len(looks) > 55
+    assert sum(abs(value) <= 0.011 for value in behind) > len(behind) // 2
+    assert max(behind) <= 0.2

@@ -87,8 +87,6 @@ class SimNode(Node):
         if self.settings.speed_source == "topic":
             subscribe_speed(self, self._speed)
         self._outputs = Outputs(self, self.model.vehicle, self.settings)
-        if self.settings.publish_tf and self._outputs.without_tf:
-            self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
         self._start_time: int = self.get_clock().now().nanoseconds
         self.recorder = Recorder(self._open_run)
         if self.settings.record:
@@ -107,6 +105,8 @@ class SimNode(Node):
 
     def start(self) -> None:
         """Publish the first sample; from now on the steady clock counts."""
+        if self.settings.publish_tf and self._outputs.without_tf:
+            self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
         self._publish(steps=0)
         period, rate = self.grid.period_ns, self.settings.real_time_factor
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
