@@ -6,7 +6,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: help setup sim test test-fast soak lint reproduction lock clean
+.PHONY: help setup sim test test-fast soak lint reproduction parameters lock clean
 
 help:  ## say what the targets do
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -38,11 +38,14 @@ lint: setup  ## ruff, mypy and the layering
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
-	@MYPYPATH=docs $(BIN)/mypy --explicit-package-bases docs/reproduce.py docs/reproduction
+	@MYPYPATH=docs $(BIN)/mypy --explicit-package-bases docs/reproduce.py docs/reproduction docs/parameter_table.py
 	@$(BIN)/lint-imports --no-cache
 
 reproduction: setup  ## write docs/report_reproduction.md and the pictures of docs/ from the code
 	@$(BIN)/python docs/reproduce.py
+
+parameters: setup  ## write the node's parameters into the README and config/sim.yaml
+	@$(BIN)/python docs/parameter_table.py
 
 lock: setup  ## renew requirements.lock
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check uv

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
     from graph import Graph
 
-sys.path.insert(0, str(Path(__file__).parent))
+for directory in (Path(__file__).parent, Path(__file__).parents[1] / "docs"):
+    sys.path.insert(0, str(directory))
 
 # The same examples every time: a check that fails now and then is no check of a commit.
 settings.register_profile("repeatable", derandomize=True, deadline=None)

@@ -2,13 +2,14 @@
 
 import math
 import re
-from dataclasses import fields
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import pytest
 from ruamel.yaml import YAML
 
+import parameter_table
 from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.cli.dispatch import COMMANDS
 from yawdamp_ros.manoeuvres import LaneChange
@@ -19,29 +20,16 @@ from yawdamp_ros.vehicle import builtin_vehicles, parse_vehicle
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 
 
-def parameter_rows() -> list[str]:
-    defaults = SimParameters()
-    rows = []
-    for declared in fields(SimParameters):
-        default = str(getattr(defaults, declared.name)).lower() or '""'
-        described = declared.metadata["description"]
-        if declared.metadata["choices"]:
-            described += f" ({', '.join(declared.metadata['choices'])})"
-        if declared.metadata["dynamic"]:
-            described += "; *while running*"
-        rows.append(f"| `{declared.name}` | {default} | {described} |")
-    return rows
-
-
 def test_the_table_of_parameters_is_that_of_the_declarations() -> None:
-    table = README.partition("| parameter | default | |\n|---|---|---|\n")[2].partition("\n\n")[0]
-    assert table.splitlines() == parameter_rows()
+    assert parameter_table.readme(README) == README
+    assert README.count(parameter_table.HEAD) == 1
 
 
-def test_the_parameter_file_holds_every_parameter_with_its_default() -> None:
-    file = YAML(typ="safe", pure=True).load(share_directory() / "config" / "sim.yaml")
-    given = file["yawdamp_sim"]["ros__parameters"]
-    defaults = {declared.name: getattr(SimParameters(), declared.name) for declared in fields(SimParameters)}
+def test_the_parameter_file_is_that_of_the_declarations() -> None:
+    text = (share_directory() / "config" / "sim.yaml").read_text(encoding="utf-8")
+    assert text == parameter_table.parameter_file()
+    given = YAML(typ="safe", pure=True).load(text)["yawdamp_sim"]["ros__parameters"]
+    defaults = asdict(SimParameters())
     assert list(given) == list(defaults)
     for name, default in defaults.items():
         both_nan = isinstance(default, float) and math.isnan(default) and math.isnan(given[name])

@@ -1,6 +1,5 @@
 """Runs read back from the CSV files that `simulate` writes."""
 
-import csv
 import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -8,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.logs.csv_file import csv_reader
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.response_csv import UNIT_COLUMNS
 from yawdamp_ros.stepping import Response
@@ -32,15 +32,8 @@ def read_response_csv(path: Path) -> Response:
     LogError
         If the file cannot be read or is no run; the message names the column or the line.
     """
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            return _parse(csv.reader(file), path)
-    except OSError as error:
-        raise LogError(path, f"cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise LogError(path, "not UTF-8 text; expected a CSV file") from error
-    except csv.Error as error:
-        raise LogError(path, f"not valid CSV: {error}") from error
+    with csv_reader(path) as rows:
+        return _parse(rows, path)
 
 
 def _parse(rows: Iterator[list[str]], path: Path) -> Response:

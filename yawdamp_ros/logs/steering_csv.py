@@ -1,11 +1,11 @@
 """Steering logs in CSV files with named columns."""
 
-import csv
 import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from yawdamp_ros.logs.csv_file import csv_reader
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.steering_log import SteeringLog
 
@@ -39,15 +39,8 @@ def read_steering_csv(path: Path, column: str | None = None, *, degrees: bool = 
         If the file cannot be read, lacks a column, or holds a value that is none; the message names
         the line.
     """
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            return _parse(csv.reader(file), path, column, degrees=degrees)
-    except OSError as error:
-        raise LogError(path, f"cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise LogError(path, "not UTF-8 text; expected a CSV file") from error
-    except csv.Error as error:
-        raise LogError(path, f"not valid CSV: {error}") from error
+    with csv_reader(path) as rows:
+        return _parse(rows, path, column, degrees=degrees)
 
 
 def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bool) -> SteeringLog:

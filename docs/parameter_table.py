@@ -1,0 +1,67 @@
+"""Write the parameters of the node, as declared, into the README and config/sim.yaml: `make parameters`."""
+
+import math
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+from yawdamp_ros.nodes.parameters import SimParameters
+
+ROOT = Path(__file__).parents[1]
+HEAD = "| parameter | default | |\n|---|---|---|\n"
+FILE_HEAD = """\
+# Parameters of the simulator node, with their defaults:
+#   ros2 run yawdamp_ros sim --ros-args --params-file sim.yaml
+# A number must be written as declared: 100.0, not 100. nan is what was not given.
+yawdamp_sim:
+  ros__parameters:
+"""
+
+
+def readme(text: str) -> str:
+    """README with its table of parameters renewed."""
+    before, _, rest = text.partition(HEAD)
+    after = rest.partition("\n\n")[2]
+    return f"{before}{HEAD}{_rows()}\n\n{after}"
+
+
+def parameter_file() -> str:
+    """Text of config/sim.yaml."""
+    lines = []
+    for declared in fields(SimParameters):
+        value = f"    {declared.name}: {_yaml(getattr(SimParameters(), declared.name))}"
+        lines.append(f"{value:<42}# {declared.metadata['description']}\n")
+    return FILE_HEAD + "".join(lines)
+
+
+def main() -> int:
+    """Write both."""
+    path = ROOT / "README.md"
+    path.write_text(readme(path.read_text(encoding="utf-8")), encoding="utf-8")
+    (ROOT / "config" / "sim.yaml").write_text(parameter_file(), encoding="utf-8")
+    return 0
+
+
+def _rows() -> str:
+    rows = []
+    for declared in fields(SimParameters):
+        default = str(getattr(SimParameters(), declared.name)).lower() or '""'
+        described = declared.metadata["description"]
+        if declared.metadata["choices"]:
+            described += f" ({', '.join(declared.metadata['choices'])})"
+        if declared.metadata["dynamic"]:
+            described += "; *while running*"
+        rows.append(f"| `{declared.name}` | {default} | {described} |")
+    return "\n".join(rows)
+
+
+def _yaml(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float) and math.isnan(value):
+        return ".nan"
+    return '[""]' if value == [""] else str(value) or '""'
+
+
+if __name__ == "__main__":
+    sys.exit(main())
