@@ -26,7 +26,7 @@ sim: setup  ## drive the interlink through a lane change for 15 s and record it
 	@$(BIN)/python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --duration 15
 
 test: setup  ## run every test
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest -n 2 --dist loadfile
 
 test-fast: setup  ## run the tests that need no ROS graph
 	@$(BIN)/python -m pytest -m "not graph"

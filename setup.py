@@ -54,7 +54,7 @@ setup(
         "analysis": ["control>=0.10"],  # root locus, Bode and Nyquist by the field's own library
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.
-        "test": ["pytest>=8,<9", "pytest-timeout", "hypothesis", "rosbags"],
+        "test": ["pytest>=8,<9", "pytest-timeout", "pytest-xdist", "hypothesis", "rosbags"],
         "lint": ["ruff", "mypy", "import-linter"],
         "colcon": ["colcon-core", "colcon-ros"],
     },

@@ -24,7 +24,9 @@ from std_msgs.msg import Float64
 
 PATIENCE = 30.0
 """Seconds after which a process is taken to hang; nothing is expected to come near it."""
-_DOMAINS = itertools.count(1 + os.getpid() % 40 * 2)
+_WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+_DOMAINS = itertools.cycle(range(1 + 20 * (_WORKER % 5), 21 + 20 * (_WORKER % 5)))
+"""Of this worker alone, so that tests side by side do not hear each other."""
 
 
 def until(condition: Callable[[], bool], what: str) -> None:
@@ -43,7 +45,7 @@ class Graph:
         self.received: dict[str, list[bytes]] = defaultdict(list)
         self._types: dict[str, type] = {}
         self._processes: list[subprocess.Popen[str]] = []
-        self._domain = next(_DOMAINS) % 100 + 1
+        self._domain = next(_DOMAINS)
         self.environment = {
             **os.environ,
             "ROS_DOMAIN_ID": str(self._domain),

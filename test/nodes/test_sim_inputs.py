@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from builtin_interfaces.msg import Time
+from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 
@@ -67,19 +68,22 @@ def test_a_type_that_is_not_installed_names_its_package(graph: Graph, kind: str)
 
 
 def test_the_model_follows_the_speed_topic(graph: Graph) -> None:
+    graph.listen({"/truck/odom": Odometry})
     process = started(graph, "speed_source:=topic")
     publisher = graph.publisher(Float64, "/speed")
-
-    def speeds() -> list[float]:
-        return [message.data for _, message in recorded(run_directory(graph.directory))["/speed"]]
-
-    for speed in (15.0, 18.25, math.nan, -3.0, math.inf, 0.2):
+    for speed, followed in ((15.0, 15.0), (18.25, 18.25), (0.2, 1.0)):
+        for refused in (math.nan, -3.0, math.inf):
+            publisher.publish(Float64(data=refused))
         publisher.publish(Float64(data=speed))
-        time.sleep(0.1)
+        until(
+            lambda followed=followed: graph.messages("/truck/odom")[-1].twist.twist.linear.x == followed,
+            f"the model at {followed} m/s",
+        )
     status, _, errors = stop(process)
     assert status == 0
     assert "speed: nan: refused or clamped" in errors
-    assert speeds() == [load_vehicle("interlink").speed, 15.0, 18.25, 1.0]
+    speeds = [message.data for _, message in recorded(run_directory(graph.directory))["/speed"]]
+    assert speeds == [load_vehicle("interlink").speed, 15.0, 18.25, 1.0]
 
 
 def test_a_speed_and_a_speed_topic_exclude_each_other(graph: Graph) -> None:
