@@ -78,7 +78,7 @@ def test_steering_from_the_graph_is_applied_recorded_and_stepped_as_recorded(gra
     count = len(messages["/truck/imu"])
     samples = stepped_again(messages["/steering"], count)
     assert max(abs(message.data) for _, message in messages["/steering"]) == pytest.approx(0.05, abs=1e-4)
-    assert len({message.data for _, message in messages["/steering"]}) > 50
+    assert len({message.data for _, message in messages["/steering"]}) > 10
     for index, unit in enumerate(UNITS):
         assert [message.data for _, message in messages[f"/{unit}/lateral_acceleration"]] == [
             sample.lateral_acceleration[index] for sample in samples
