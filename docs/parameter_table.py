@@ -45,7 +45,7 @@ def main() -> int:
 def _rows() -> str:
     rows = []
     for declared in fields(SimParameters):
-        default = str(getattr(SimParameters(), declared.name)).lower() or '""'
+        default = _yaml(getattr(SimParameters(), declared.name))
         described = declared.metadata["description"]
         if declared.metadata["choices"]:
             described += f" ({', '.join(declared.metadata['choices'])})"

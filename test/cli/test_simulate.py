@@ -118,10 +118,23 @@ def test_overrides_and_speed_reach_the_model(tmp_path: Path, capsys: pytest.Capt
         (["--manoeuvre", "step", "--vehicle", "lorry"], "lorry: no such vehicle"),
         (["--manoeuvre", "step", "--set", "units.1.mass=0"], "units.1.mass: 0: expected a mass in kg"),
         (["--manoeuvre", "step", "--speed", "80"], "speed: 80.0: expected a speed in m/s"),
+        (["--manoeuvre", "step", "--step-size", "nan"], "step_size: nan: expected a time in s above 0"),
+        (["--manoeuvre", "step", "--sample-period", "0"], "sample_period: 0.0: expected a time in s above 0"),
+        (["--manoeuvre", "step", "--vehicle", ""], "no such vehicle"),
+        (["--manoeuvre", "step", "--column", "x"], "--column: there is no --log that it could be of"),
+        (["--manoeuvre", "step", "--degrees"], "--degrees: there is no --log that it could be of"),
+        (
+            ["--manoeuvre", "step", "--speed", "1e-300"],
+            "speed: 1e-300: expected a speed in m/s, from 0.1 to 70",
+        ),
+        (["--log", "a.csv", "--output", "./a.csv"], "--output: ./a.csv: that is the log"),
         (["--manoeuvre", "step", "--unknown"], "unrecognized arguments: --unknown"),
         (["--log", "none.csv"], "none.csv: cannot be read: No such file"),
         (["--log", "none.csv", "--amplitude", "0.1"], "--amplitude: expected either a manoeuvre or --log"),
-        (["--log", "none.csv", "--steering-ratio", "0"], "--steering-ratio: 0.0: expected a number above 0"),
+        (
+            ["--log", "none.csv", "--steering-ratio", "0"],
+            "--steering-ratio: 0.0: expected a number from 0.001",
+        ),
     ],
 )
 def test_wrong_use_is_one_line_and_status_2(

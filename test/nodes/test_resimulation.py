@@ -99,6 +99,20 @@ def test_an_offline_run_is_bit_identical(offline: Path, capsys: pytest.CaptureFi
     assert "every value is bit-identical" in capsys.readouterr().out
 
 
+def changed(topic: str, log_time: int, data: bytes, change: str) -> bytes | None:
+    """What becomes of a message; None if it is left out."""
+    if change == "gap" and 1_000_000_000 < log_time <= 1_500_000_000:
+        return None
+    if topic == "/trailer/imu" and log_time == 1_230_000_000:
+        if change == "missing":
+            return None
+        if change == "last bit":
+            imu = deserialize_message(data, Imu)
+            imu.angular_velocity.z = math.nextafter(imu.angular_velocity.z, 1.0)
+            return bytes(serialize_message(imu))
+    return data
+
+
 def rewritten(run_path: Path, change: str) -> Path:
     """A copy of a run in which one thing is not as it was recorded."""
     source, target = next(run_path.glob("*.mcap")), run_path.parent / "changed.mcap"
@@ -116,17 +130,12 @@ def rewritten(run_path: Path, change: str) -> Path:
         channels = {}
         for schema, channel, message in reader.iter_messages(log_time_order=False):
             assert schema is not None
-            data = message.data
             if channel.id not in channels:
                 schema_id = writer.register_schema(schema.name, schema.encoding, schema.data)
                 channels[channel.id] = writer.register_channel(channel.topic, "cdr", schema_id)
-            if channel.topic == "/trailer/imu" and message.log_time == 1_230_000_000:
-                if change == "missing":
-                    continue
-                if change == "last bit":
-                    imu = deserialize_message(data, Imu)
-                    imu.angular_velocity.z = math.nextafter(imu.angular_velocity.z, 1.0)
-                    data = serialize_message(imu)
+            data = changed(channel.topic, message.log_time, message.data, change)
+            if data is None:
+                continue
             writer.add_message(channels[channel.id], message.log_time, data, message.publish_time)
         writer.finish()
     return target
@@ -158,6 +167,14 @@ def test_a_message_that_is_missing_is_found(offline: Path, capsys: pytest.Captur
         "recorded": "no message",
         "repeated": "a message",
     }
+
+
+def test_samples_that_are_missing_are_found(offline: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, found = verdict(rewritten(offline, "gap"), capsys)
+    assert (status, found["bit_identical"]) == (1, False)
+    difference = found["difference"]
+    assert isinstance(difference, dict)
+    assert (difference["where"], difference["time"]) == ("every output", 1.01)
 
 
 def test_a_run_of_another_build_need_only_agree_closely(

@@ -1,15 +1,19 @@
+import signal
 from pathlib import Path
 
 import numpy as np
 import pytest
+from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
 from graph import Graph, outcome, stamps, stop, until
 from runs import PERIOD, UNITS, recorded, run_directory
 from yawdamp_ros.cli import run
+from yawdamp_ros.vehicle import vehicle_text
 
 pytestmark = pytest.mark.graph
 
@@ -131,3 +135,53 @@ def test_simulators_side_by_side_do_not_meet(graph: Graph) -> None:
     assert graph.messages("/left/truck/imu")[150].angular_velocity.z > 0.0
     assert all(message.angular_velocity.z <= 0.0 for message in graph.messages("/right/truck/imu"))
     assert len(list(Path(graph.directory, "runs").iterdir())) == 2
+
+
+def test_a_recording_holds_the_vehicle_that_runs_whatever_became_of_its_file(graph: Graph) -> None:
+    file = graph.directory / "mine.yaml"
+    file.write_text(vehicle_text("interlink"))
+    parameters = ["--ros-args", "-p", "publish_rate:=1.0"]
+    process = graph.command(
+        "sim", "--vehicle", "mine.yaml", "--no-record", "--manoeuvre", "sine", *parameters
+    )
+    until(lambda: graph.publishers("/truck/imu") == 1, "the node")
+    file.unlink()
+    # At one sample a second, the first is out and the next far: the recording begins between them.
+    assert graph.call("/yawdamp_sim/record", SetBool, SetBool.Request(data=True)).success
+    graph.listen({"/truck/imu": Imu})
+    until(lambda: len(graph.received["/truck/imu"]) > 1, "two samples")
+    assert stop(process)[0] == 0
+    assert run(["resimulate", str(run_directory(graph.directory))]) == 0
+
+
+def test_a_lower_limit_holds_for_the_command_in_force(graph: Graph) -> None:
+    graph.listen({"/joint_states": JointState})
+    process = graph.command("sim")
+    until(lambda: bool(graph.received["/joint_states"]), "a sample")
+    graph.steering_publisher().publish(Float64(data=0.5))
+    until(lambda: graph.messages("/joint_states")[-1].position[0] == 0.5, "the command")
+    assert graph.set_parameter("/yawdamp_sim", "max_steering_angle", 0.05).successful
+    until(lambda: graph.messages("/joint_states")[-1].position[0] == 0.05, "the new limit")
+    assert stop(process)[0] == 0
+
+
+def test_a_prefix_tells_the_frames_of_simulators_apart(graph: Graph) -> None:
+    graph.listen({"/truck/odom": Odometry, "/markers": MarkerArray})
+    parameters = ["-p", "frame_prefix:=left/", "-p", "publish_markers:=true"]
+    process = graph.command("sim", "--ros-args", *parameters)
+    until(lambda: all(graph.received[topic] for topic in ("/truck/odom", "/markers")), "samples")
+    odometry = graph.messages("/truck/odom")[0]
+    assert (odometry.header.frame_id, odometry.child_frame_id) == ("left/odom", "left/truck")
+    assert graph.messages("/markers")[0].markers[0].header.frame_id == "left/odom"
+    assert stop(process)[0] == 0
+    assert run(["resimulate", str(run_directory(graph.directory))]) == 0
+
+
+def test_under_nohup_a_hang_up_is_ignored(graph: Graph) -> None:
+    process = graph.command("sim", under=["nohup"])
+    graph.listen({"/truck/imu": Imu})
+    until(lambda: len(graph.received["/truck/imu"]) > 5, "samples")
+    process.send_signal(signal.SIGHUP)
+    before = len(graph.received["/truck/imu"])
+    until(lambda: len(graph.received["/truck/imu"]) > before + 50, "samples after the hang-up")
+    assert stop(process)[0] == 0

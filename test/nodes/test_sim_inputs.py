@@ -145,6 +145,15 @@ def test_diagnostics_tell_of_time_model_and_recorder(graph: Graph) -> None:
     assert stop(process)[0] == 0
 
 
+def test_a_joint_state_without_the_joint_is_warned_of(graph: Graph) -> None:
+    process = started(graph, "steering_type:=sensor_msgs/msg/JointState")
+    statuses = graph.statuses()
+    graph.publisher(JointState, "/steering").publish(joint_state(0.1, 0, joint="wheel"))
+    until(lambda: "without the joint" in statuses("steering").message, "a warning")
+    assert statuses("steering").level == b"\1"
+    assert stop(process)[0] == 0
+
+
 def test_an_unstable_vehicle_is_warned_of(graph: Graph) -> None:
     process = started(graph, "model:=published", "speed:=10.0")
     statuses = graph.statuses()

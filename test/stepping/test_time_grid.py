@@ -20,8 +20,17 @@ def test_times_do_not_drift() -> None:
 
 @pytest.mark.parametrize(
     "step_size, period",
-    [(0.001, 0.0015), (0.01, 0.001), (0.001, 0.0), (0.0, 0.01), (1e-9, 0.01), (-1.0, 1.0)],
+    [
+        (0.001, 0.0015),
+        (0.01, 0.001),
+        (0.001, 0.0),
+        (0.0, 0.01),
+        (1e-9, 0.01),
+        (-1.0, 1.0),
+        (float("nan"), 1.0),
+        (0.001, float("inf")),
+    ],
 )
 def test_what_does_not_fit_is_refused(step_size: float, period: float) -> None:
-    with pytest.raises(SteppingError, match="step_size: "):
+    with pytest.raises(SteppingError, match=r"(step_size|sample_period): "):
         TimeGrid.of(step_size, period)

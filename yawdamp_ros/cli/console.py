@@ -4,7 +4,15 @@ import sys
 from collections.abc import Sequence
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 from rich.text import Text
 
@@ -22,13 +30,21 @@ def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]
     Console(width=None if sys.stdout.isatty() else PIPE_WIDTH).print(table)
 
 
+class _Seconds(ProgressColumn):
+    """Simulated time done and, where it is known, in all."""
+
+    def render(self, task: Task) -> Text:
+        total = "" if task.total is None else f" / {task.total:.1f}"
+        return Text(f"{task.completed:.1f}{total} s")
+
+
 def progress_bar() -> Progress:
     """A progress bar on standard error; silent where that is no terminal."""
     console = Console(stderr=True)
     return Progress(
         TextColumn("{task.description}"),
         BarColumn(),
-        TextColumn("{task.completed:.1f} / {task.total:.1f} s"),
+        _Seconds(),
         TimeElapsedColumn(),
         TimeRemainingColumn(),
         console=console,

@@ -1,12 +1,14 @@
 """Options of the commands that read a steering log."""
 
 import argparse
-import math
 import sys
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.logs import SteeringLog, is_recording, read_steering_csv, read_steering_mcap
+
+RATIOS = (1e-3, 1e3)
+"""Least and largest steering ratio, as for the node."""
 
 
 def add_log_options(parser: argparse.ArgumentParser) -> None:
@@ -23,11 +25,16 @@ def add_log_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--steering-ratio",
         type=float,
-        default=1.0,
         metavar="R",
         help="hand-wheel over road-wheel angle; default: 1, the log is of the road wheel",
     )
-    group.add_argument("--start-offset", type=float, default=0.0, metavar="S", help="leave out its beginning")
+    group.add_argument("--start-offset", type=float, metavar="S", help="leave out its beginning")
+
+
+def log_options(options: argparse.Namespace) -> list[str]:
+    """Those of these options that were given."""
+    names = ("topic", "joint", "column", "degrees", "steering_ratio", "start_offset")
+    return [name for name in names if getattr(options, name) not in {None, False}]
 
 
 def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
@@ -38,13 +45,14 @@ def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -
     UsageError, LogError
         If an option or the log cannot be used.
     """
-    if not (math.isfinite(options.steering_ratio) and options.steering_ratio > 0.0):
-        message = f"--steering-ratio: {options.steering_ratio}: expected a number above 0"
+    ratio = 1.0 if options.steering_ratio is None else options.steering_ratio
+    if not RATIOS[0] <= ratio <= RATIOS[1]:
+        message = f"--steering-ratio: {ratio}: expected a number from {RATIOS[0]:g} to {RATIOS[1]:g}"
         raise UsageError(message)
     log = _read(Path(path), options)
     if log.warning:
         print(f"warning: {log.warning}", file=sys.stderr)
-    return log.divided(options.steering_ratio).window(options.start_offset, duration)
+    return log.divided(ratio).window(options.start_offset or 0.0, duration)
 
 
 def _read(path: Path, options: argparse.Namespace) -> SteeringLog:

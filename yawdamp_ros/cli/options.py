@@ -60,9 +60,14 @@ def overrides(options: argparse.Namespace) -> list[str]:
     return [*options.set, *speed]
 
 
+def chosen_name(options: argparse.Namespace) -> str:
+    """Builtin name or path of the vehicle that the options name."""
+    return DEFAULT_VEHICLE if options.vehicle is None else str(options.vehicle)
+
+
 def chosen_vehicle(options: argparse.Namespace) -> Vehicle:
     """Vehicle that the options name, with its overrides, at the speed they give."""
-    return load_vehicle(options.vehicle or DEFAULT_VEHICLE, overrides(options))
+    return load_vehicle(chosen_name(options), overrides(options))
 
 
 def chosen_model(options: argparse.Namespace) -> LinearModel:

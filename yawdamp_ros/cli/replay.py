@@ -26,6 +26,9 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
         message = f"--rate: {options.rate}: expected a number above 0"
         raise UsageError(message)
     log = chosen_log(options.log, options, options.duration)
+    if options.loop and not log.duration:
+        message = "--loop: the log is of one instant"
+        raise UsageError(message)
     require_ros()
     from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
     from yawdamp_ros.nodes.graph import ros_graph, spinning  # noqa: PLC0415
@@ -44,9 +47,8 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
                 node.wait_for_subscriber()
             with progress_bar() as bar:
                 task = bar.add_task("replaying", total=log.duration)
-                going = not stop.requested
-                while going:
-                    going = node.play(lambda at: bar.update(task, completed=at)) and options.loop
+                if not stop.requested:
+                    node.play(lambda at: bar.update(task, completed=at), loop=options.loop)
             node.close()
         if not stop.requested:
             print(

@@ -19,9 +19,13 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
+    from yawdamp_ros.cli.errors import UsageError  # noqa: PLC0415
     from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415
 
     options, ros_arguments = parse_before_ros(_parser(), arguments)
+    if options.no_record and options.output is not None:
+        message = "--output: there is no recording with --no-record"
+        raise UsageError(message)
     require_ros()
     from yawdamp_ros.nodes.graph import ros_graph  # noqa: PLC0415
     from yawdamp_ros.nodes.sim import SimNode  # noqa: PLC0415

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.cli.log_options import add_log_options, chosen_log
+from yawdamp_ros.cli.log_options import add_log_options, chosen_log, log_options
 from yawdamp_ros.cli.options import (
-    DEFAULT_VEHICLE,
     Parser,
     add_manoeuvre_options,
     add_vehicle_options,
     chosen_manoeuvre,
     chosen_model,
+    chosen_name,
     manoeuvre_settings,
 )
 from yawdamp_ros.cli.peaks_table import print_peaks
@@ -43,7 +43,9 @@ def main(arguments: Sequence[str]) -> int:
         raise UsageError(message)
     output = Path(options.output) if options.output else default_run_directory(model.vehicle.name)
     to_csv = output.suffix == ".csv"
-    period = options.sample_period or (options.step_size if to_csv else RUN_SAMPLE_PERIOD)
+    period = options.sample_period
+    if period is None:
+        period = options.step_size if to_csv else RUN_SAMPLE_PERIOD
     grid = TimeGrid.of(options.step_size, period)
     stepper = Stepper(model, grid.step_size)
     samples = sample_run(stepper, grid, steering, duration)
@@ -75,8 +77,14 @@ def _steering(options: argparse.Namespace) -> tuple[Steering, float]:
         if given:
             message = f"--{given[0].replace('_', '-')}: expected either a manoeuvre or --log"
             raise UsageError(message)
+        if options.output is not None and Path(options.output).resolve() == Path(options.log).resolve():
+            message = f"--output: {options.output}: that is the log"
+            raise UsageError(message)
         log = chosen_log(options.log, options, options.duration)
         return log, log.duration if options.duration is None else options.duration
+    if unused := log_options(options):
+        message = f"--{unused[0].replace('_', '-')}: there is no --log that it could be of"
+        raise UsageError(message)
     if options.manoeuvre is None:
         message = "no steering; expected --manoeuvre NAME or --log FILE"
         raise UsageError(message)
@@ -94,7 +102,7 @@ def _run_directory(
         stepper,
         grid,
         parameters=vars(options),
-        vehicle=VehicleSource(vehicle_text(options.vehicle or DEFAULT_VEHICLE), tuple(options.set)),
+        vehicle=VehicleSource(vehicle_text(chosen_name(options)), tuple(options.set)),
     )
 
 

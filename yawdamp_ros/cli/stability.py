@@ -9,11 +9,11 @@ from yawdamp_ros.cli import stability_report
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
-    DEFAULT_VEHICLE,
     Parser,
     add_format_option,
     add_vehicle_options,
     chosen_model,
+    chosen_name,
     overrides,
 )
 from yawdamp_ros.dynamics import LinearModel
@@ -102,9 +102,7 @@ def _vary(options: argparse.Namespace) -> int:
         message = "--vary: not together with --output, --bode, --nyquist or --root-locus"
         raise UsageError(message)
     variation = parse_variation(options.vary)
-    models = variation.models(
-        options.vehicle or DEFAULT_VEHICLE, overrides(options), options.model or DEFAULT_MODEL
-    )
+    models = variation.models(chosen_name(options), overrides(options), options.model or DEFAULT_MODEL)
     locus = eigenvalue_locus(models, variation.values, _progress)
     first = models(variation.values[0])
     if options.plot:

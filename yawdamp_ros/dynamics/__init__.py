@@ -2,9 +2,10 @@
 
 from yawdamp_ros.dynamics.consistent import EquationsOfMotion, equations_of_motion
 from yawdamp_ros.dynamics.errors import DynamicsError
-from yawdamp_ros.dynamics.linear_model import MODELS, LinearModel, linear_model
+from yawdamp_ros.dynamics.linear_model import LOWEST_SPEED, MODELS, LinearModel, linear_model
 
 __all__ = [
+    "LOWEST_SPEED",
     "MODELS",
     "DynamicsError",
     "EquationsOfMotion",

@@ -17,6 +17,9 @@ MODELS: Mapping[str, Callable[[Vehicle, float], tuple[FloatArray, FloatArray]]] 
 )
 """The models of a vehicle, each a function from vehicle and speed to state and input matrix."""
 
+LOWEST_SPEED = 0.1
+"""In m/s. A slip angle is a lateral velocity over the speed, which grows without bound towards standstill."""
+
 
 @dataclass(frozen=True)
 class LinearModel:
@@ -74,11 +77,11 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     Raises
     ------
     DynamicsError
-        If the speed is not positive and finite, or there is no such model for this vehicle.
+        If the speed is below `LOWEST_SPEED` or not finite, or there is no such model for this vehicle.
     """
     speed = vehicle.speed if speed is None else speed
-    if not (math.isfinite(speed) and speed > 0.0):
-        message = f"speed: {speed}: expected a speed in m/s above 0"
+    if not (math.isfinite(speed) and speed >= LOWEST_SPEED):
+        message = f"speed: {speed}: expected a speed of at least {LOWEST_SPEED} m/s"
         raise DynamicsError(message)
     if model not in MODELS:
         message = f"model: {model!r}: expected one of {', '.join(MODELS)}"

@@ -64,4 +64,5 @@ def spinning(node: Node) -> Iterator[None]:
 
 
 def _first_line(error: Exception) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0]
+    # rcl appends where in its sources it was.
+    return (str(error).splitlines() or [type(error).__name__])[0].partition(", at /")[0]

@@ -57,6 +57,8 @@ class OutputMessages:
     publish_scalars : bool
         Whether yaw, yaw rate and lateral acceleration also go out as plain numbers.
     noise : Noise, optional
+    frame_prefix : str
+        Put before the names of frames.
 
     Attributes
     ----------
@@ -65,11 +67,16 @@ class OutputMessages:
     """
 
     def __init__(
-        self, unit_names: Sequence[str], *, publish_scalars: bool, noise: Noise | None = None
+        self,
+        unit_names: Sequence[str],
+        *,
+        publish_scalars: bool,
+        noise: Noise | None = None,
+        frame_prefix: str = "",
     ) -> None:
         self._noise = noise or Noise()
-        self._imus = [_imu(name, self._noise) for name in unit_names]
-        self._odometries = [_odometry(name) for name in unit_names]
+        self._imus = [_imu(frame_prefix + name, self._noise) for name in unit_names]
+        self._odometries = [_odometry(frame_prefix, name) for name in unit_names]
         self._joints = _joint_states(len(unit_names) - 1)
         self._scalars = [Float64() for _ in unit_names for _ in SCALARS] if publish_scalars else []
         self._last_steering: tuple[int, float] | None = None
@@ -146,9 +153,9 @@ def type_name(message_class: Any) -> str:  # noqa: ANN401 - generated classes sh
     return f"{message_class.__module__.split('.')[0]}/msg/{message_class.__name__}"
 
 
-def _imu(unit_name: str, noise: Noise) -> Imu:
+def _imu(frame: str, noise: Noise) -> Imu:
     message = Imu()
-    message.header.frame_id = unit_name
+    message.header.frame_id = frame
     message.linear_acceleration.z = STANDARD_GRAVITY
     # All zeros mean that a covariance is not known (REP-145); without noise there is none to know.
     for covariance, deviation in (
@@ -160,10 +167,10 @@ def _imu(unit_name: str, noise: Noise) -> Imu:
     return message
 
 
-def _odometry(unit_name: str) -> Odometry:
+def _odometry(frame_prefix: str, unit_name: str) -> Odometry:
     message = Odometry()
-    message.header.frame_id = "odom"
-    message.child_frame_id = unit_name
+    message.header.frame_id = f"{frame_prefix}odom"
+    message.child_frame_id = frame_prefix + unit_name
     return message
 
 

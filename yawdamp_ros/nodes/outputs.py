@@ -1,5 +1,6 @@
 """What the simulator publishes of a sample."""
 
+import time
 from typing import Any
 
 from rclpy.duration import Duration
@@ -44,8 +45,12 @@ class Outputs:
             settings.lateral_acceleration_stddev,
             settings.noise_seed,
         )
+        self._frame_prefix = settings.frame_prefix
         self.messages = OutputMessages(
-            vehicle.unit_names, publish_scalars=settings.publish_scalars, noise=noise
+            vehicle.unit_names,
+            publish_scalars=settings.publish_scalars,
+            noise=noise,
+            frame_prefix=settings.frame_prefix,
         )
         self._publishers = [
             node.create_publisher(kind, topic, QUEUE_DEPTH) for topic, kind in self.messages.types.items()
@@ -67,15 +72,18 @@ class Outputs:
         for publisher, data in zip(self._publishers, serialised, strict=True):
             publisher.publish(data)
         if self._tf is not None and self._tf_class is not None:
-            self._tf.publish(self._tf_class(transforms=transforms(self._vehicle, sample, stamp)))
+            self._tf.publish(
+                self._tf_class(transforms=transforms(self._vehicle, sample, stamp, self._frame_prefix))
+            )
         if self._markers is not None:
-            self._markers.publish(markers(self._vehicle, sample, stamp))
+            self._markers.publish(markers(self._vehicle, sample, stamp, self._frame_prefix))
         return serialised
 
     def wait_for_subscribers(self) -> None:
-        """Let subscribers have what was published."""
+        """Let subscribers have what was published; one that hangs is not waited for longer than a second."""
+        deadline = time.monotonic() + 1.0
         for publisher in self._publishers:
-            publisher.wait_for_all_acked(Duration(seconds=1))
+            publisher.wait_for_all_acked(Duration(seconds=max(deadline - time.monotonic(), 0.0)))
 
 
 def _tf_publisher(node: Node) -> tuple[Any, Any, str]:

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from yawdamp_ros.dynamics import MODELS
+from yawdamp_ros.dynamics import LOWEST_SPEED, MODELS
 from yawdamp_ros.logs.steering_mcap import STEERING_TYPES
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.nodes.errors import NodeError
@@ -122,12 +122,13 @@ class SimParameters:
     publish_tf: bool = _parameter(
         default=True, description="publish the units on /tf, where tf2_msgs is installed"
     )
+    frame_prefix: str = _parameter("", "put before the names of all frames, such as left/")
     yaw_stddev: float = _parameter(0.0, "of the noise on imu's yaw, rad", limits=(0.0, 1.0))
     yaw_rate_stddev: float = _parameter(0.0, "of the noise on imu's yaw rate, rad/s", limits=(0.0, 1.0))
     lateral_acceleration_stddev: float = _parameter(
         0.0, "of the noise on imu's lateral acceleration, m/s^2", limits=(0.0, 10.0)
     )
-    noise_seed: int = _parameter(0, "of the noise: the same seed gives the same noise")
+    noise_seed: int = _parameter(0, "of the noise: the same seed gives the same noise", limits=(0, 2**31 - 1))
     record: bool = _parameter(default=True, description="record the run from its start")
     record_directory: str = _parameter(
         "", "directory of the run, which must not exist; empty: runs/<stamp>_<vehicle>"
@@ -135,6 +136,8 @@ class SimParameters:
 
     def problem(self) -> str:
         """What is wrong with these values taken together; empty if nothing is."""
+        if 0.0 < self.speed < LOWEST_SPEED:
+            return f"speed: {self.speed}: expected 0, or {LOWEST_SPEED} to 70 m/s"
         if 0.0 < self.real_time_factor < SLOWEST:
             return f"real_time_factor: {self.real_time_factor}: expected 0, or {SLOWEST} to 100"
         if self.publish_rate * max(self.real_time_factor, 1.0) > FASTEST_RATE:
@@ -230,7 +233,10 @@ def _descriptor(described: Mapping[str, Any]) -> ParameterDescriptor:
     descriptor = ParameterDescriptor(description=described["description"], read_only=not described["dynamic"])
     if described["limits"]:
         low, high = described["limits"]
-        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+        if isinstance(low, int):
+            descriptor.integer_range = [IntegerRange(from_value=low, to_value=high, step=1)]
+        else:
+            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
     if described["choices"]:
         descriptor.additional_constraints = f"one of {', '.join(described['choices'])}"
     return descriptor

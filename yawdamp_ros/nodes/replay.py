@@ -62,18 +62,26 @@ class ReplayNode(Node):
                 return False
         return True
 
-    def play(self, progress: Callable[[float], None]) -> bool:
-        """Publish the log once; return False if the stop request came first.
+    def play(self, progress: Callable[[float], None], *, loop: bool) -> None:
+        """Publish the log, once or again and again, until it ends or the stop request comes.
 
         Each sample has its own deadline on the steady clock, counted from the start, so that lateness
-        does not add up.
+        does not add up, over rounds neither. From the last sample of a round to the first of the next is the
+        mean interval of the log.
 
         Parameters
         ----------
         progress : callable
             Told the time of each sample in s.
+        loop : bool
         """
         start = time.monotonic()
+        length = self._log.duration * len(self._log.times) / max(len(self._log.times) - 1, 1)
+        while self._play_round(start, progress) and loop:
+            start = self._start_of_round + length / self._rate
+
+    def _play_round(self, start: float, progress: Callable[[float], None]) -> bool:
+        """Publish the log once; return False if the stop request came first."""
         message = Float64()
         for at, angle in zip(self._log.times, self._log.angles, strict=True):
             while True:
@@ -93,6 +101,7 @@ class ReplayNode(Node):
                 now = self._log.start_time + nanoseconds(at)
                 self._clock_publisher.publish(Clock(clock=Time(nanoseconds=now).to_msg()))
             progress(at)
+        self._start_of_round = start
         return True
 
     def close(self) -> None:

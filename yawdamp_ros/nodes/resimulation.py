@@ -90,6 +90,7 @@ class Resimulation:
             self._model = linear_model(vehicle, float(known["speed"]), known["model"])
             self._step_ns, self._start_time = int(known["step_ns"]), int(known["start_time_ns"])
             self._inputs = {topic: name for name, topic in json.loads(known["input_topics"]).items()}
+            self._steps_per_sample = int(known["steps_per_sample"])
             self._outputs: Mapping[str, str] = json.loads(known["output_topics"])
             self._initial = Snapshot(**json.loads(known["initial"]))
             parameters = json.loads(known["parameters"])
@@ -99,6 +100,7 @@ class Resimulation:
                 parameters.get("lateral_acceleration_stddev", 0.0),
                 parameters.get("noise_seed", 0),
             )
+            self._frame_prefix = parameters.get("frame_prefix", "")
             self.recorded_build = known["build"]
         except (KeyError, ValueError, TypeError) as error:
             raise LogError(path, f"not a run of this package, or not a whole one: {error}") from error
@@ -136,41 +138,55 @@ class Resimulation:
             for applied in pending.pop(stepper.step, []):
                 stepper.apply(applied)
 
-        for log_time, group in groupby(self._all_messages(), key=lambda message: message.log_time):
-            step = (log_time - self._start_time) // self._step_ns
-            recorded: dict[str, bytes] = {}
-            for message in group:
-                if message.topic in self._inputs:
-                    pending.setdefault(step, []).append(self._applied(message, step))
-                else:
-                    recorded[message.topic] = message.data
-            if self.warning:  # the last instant of a run that was cut off need not be whole
+        for step, inputs, recorded in self._instants():
+            pending[step] = inputs
+            if not recorded:
+                continue
+            due = stepper.step + self._steps_per_sample
+            if self.samples and step != due:
+                missing = due * self._step_ns / SECOND
+                self._part(Difference("every output", missing, "", "no sample", "a sample"))
                 return
-            if recorded:
-                sample = stepper.run(step - stepper.step, drive)
-                self.duration = step * self._step_ns / SECOND
-                repeated = outputs.serialised(sample, log_time)
-                for (name, kind), data in zip(outputs.types.items(), repeated, strict=True):
-                    self._compare(self._outputs[name], kind, recorded, data)
-                    if self.difference is not None:
-                        return
-                self.samples += 1
-                yield self.duration
+            sample = stepper.run(step - stepper.step, drive)
+            self.duration = step * self._step_ns / SECOND
+            stamp = self._start_time + step * self._step_ns
+            for (name, kind), data in zip(
+                outputs.types.items(), outputs.serialised(sample, stamp), strict=True
+            ):
+                self._compare(self._outputs[name], kind, recorded, data)
+                if self.difference is not None:
+                    return
+            self.samples += 1
+            yield self.duration
 
     def _at_the_start(self) -> tuple[OutputMessages, Stepper]:
         """What the messages and the model were when the recording began."""
         scalars = any(name.endswith("/yaw") for name in self._outputs)
         names = self._model.vehicle.unit_names
-        outputs = OutputMessages(names, publish_scalars=scalars, noise=self._noise)
+        outputs = OutputMessages(
+            names, publish_scalars=scalars, noise=self._noise, frame_prefix=self._frame_prefix
+        )
         stepper = Stepper(self._model, self._step_ns / SECOND)
         stepper.restore(self._initial)
-        if self._initial.step:  # a recording that began later goes on from the sample before it
+        if self._initial.sampled:  # the recording goes on from a sample that is not in it
             stamp = self._start_time + self._initial.step * self._step_ns
             outputs.go_on_from(stamp, stepper.steering_angle)
         return outputs, stepper
 
-    def _all_messages(self) -> Iterator[RecordedMessage]:
-        return chain([self._first] if self._first is not None else [], self._messages)
+    def _instants(self) -> Iterator[tuple[int, list[AppliedInput], dict[str, bytes]]]:
+        """Step, inputs, and outputs by topic, of every instant at which something was recorded."""
+        messages = chain([self._first] if self._first is not None else [], self._messages)
+        for log_time, group in groupby(messages, key=lambda message: message.log_time):
+            step = (log_time - self._start_time) // self._step_ns
+            inputs, outputs = [], {}
+            for message in group:
+                if message.topic in self._inputs:
+                    inputs.append(self._applied(message, step))
+                else:
+                    outputs[message.topic] = message.data
+            if self.warning:  # the last instant of a run that was cut off need not be whole
+                return
+            yield step, inputs, outputs
 
     def _applied(self, message: RecordedMessage, step: int) -> AppliedInput:
         name: Any = self._inputs[message.topic]
@@ -180,8 +196,7 @@ class Resimulation:
 
     def _compare(self, topic: str, kind: type, recorded: Mapping[str, bytes], repeated: bytes) -> None:
         if topic not in recorded:
-            self.difference = Difference(topic, self.duration, "", "no message", "a message")
-            self.bit_identical = False
+            self._part(Difference(topic, self.duration, "", "no message", "a message"))
             return
         self.messages += 1
         if topic not in self._value_counts:
@@ -199,6 +214,10 @@ class Resimulation:
             if not self._same(topic, field, one, other):
                 self.difference = Difference(topic, self.duration, field, repr(one), repr(other))
                 return
+
+    def _part(self, difference: Difference) -> None:
+        self.difference = difference
+        self.bit_identical = False
 
     def _same(self, topic: str, field: str, one: Value, other: Value) -> bool:
         if not isinstance(one, float) or not isinstance(other, float):

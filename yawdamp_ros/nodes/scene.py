@@ -16,13 +16,13 @@ COLOURS = ((0.0, 0.45, 0.70), (0.84, 0.37, 0.0), (0.0, 0.62, 0.45), (0.80, 0.47,
 """Of units, front to rear and over again; told apart by the colour-blind, too."""
 
 
-def markers(vehicle: Vehicle, sample: Sample, stamp: int) -> MarkerArray:
+def markers(vehicle: Vehicle, sample: Sample, stamp: int, prefix: str) -> MarkerArray:
     """Box of every unit, from its foremost to its rearmost axle or hitch, in the ground frame."""
     array = MarkerArray()
     for index, unit in enumerate(vehicle.units):
         rear, front = extent(unit)
         marker = Marker(ns="units", id=index, type=Marker.CUBE, action=Marker.ADD)
-        _stamp(marker.header, stamp, "odom")
+        _stamp(marker.header, stamp, f"{prefix}odom")
         yaw = float(sample.yaw[index])
         turn(marker.pose.orientation, yaw)
         # The box's middle is not the centre of gravity.
@@ -37,10 +37,10 @@ def markers(vehicle: Vehicle, sample: Sample, stamp: int) -> MarkerArray:
     return array
 
 
-def transforms(vehicle: Vehicle, sample: Sample, stamp: int) -> list[TransformStamped]:
+def transforms(vehicle: Vehicle, sample: Sample, stamp: int, prefix: str) -> list[TransformStamped]:
     """Frames from the ground to the lead unit, then over each hitch to the next: those of the URDF."""
-    names = vehicle.unit_names
-    lead = _transform("odom", names[0], stamp, float(sample.x[0]), float(sample.yaw[0]))
+    names = [prefix + name for name in vehicle.unit_names]
+    lead = _transform(f"{prefix}odom", names[0], stamp, float(sample.x[0]), float(sample.yaw[0]))
     lead.transform.translation.y = float(sample.y[0])
     tree = [lead]
     for joint, (rear_hitch, front_hitch) in enumerate(vehicle.hitches):

@@ -15,8 +15,9 @@ from std_srvs.srv import SetBool, Trigger
 
 from yawdamp_ros.analysis import least_damping_ratio
 from yawdamp_ros.analysis.peaks import Peaks
-from yawdamp_ros.dynamics import LinearModel, linear_model
-from yawdamp_ros.logs import LogError, RunWriter, default_run_directory
+from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.errors import YawdampError
+from yawdamp_ros.logs import RunWriter, default_run_directory
 from yawdamp_ros.manoeuvres import make_manoeuvre
 from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
 from yawdamp_ros.nodes.errors import NodeError
@@ -36,12 +37,8 @@ from yawdamp_ros.stepping import (
     Verdict,
 )
 from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
-from yawdamp_ros.vehicle import VehicleSource, load_vehicle, vehicle_text
+from yawdamp_ros.vehicle import VehicleSource, parse_vehicle, vehicle_text
 
-CATCH_UP_NS = SECOND // 10
-"""Longest delay that is made up for by steps in a burst; more is given up, and counted."""
-LEAST_CATCH_UP = 10
-"""Sample periods that are made up for even where they are longer than that."""
 WARNING_PERIOD = 5.0
 """Seconds between warnings of one kind."""
 DIAGNOSTICS_PERIOD = 1.0
@@ -68,7 +65,14 @@ class SimNode(Node):
             parameter_overrides=[Parameter(name, value=value) for name, value in overrides.items()],
         )
         self.settings = declare_parameters(self)
-        self.model = _model(self.settings)
+        # Read once: the file may change or go while the node runs, but its vehicle does not.
+        changes = tuple(change for change in self.settings.vehicle_overrides if change)
+        self._source = VehicleSource(vehicle_text(self.settings.vehicle), changes)
+        self.model = linear_model(
+            parse_vehicle(self._source.text, self.settings.vehicle, changes),
+            self.settings.speed or None,
+            self.settings.model,
+        )
         self.grid = TimeGrid.of(self.settings.step_size, 1.0 / self.settings.publish_rate)
         self.peaks = Peaks(len(self.model.vehicle.units))
         self.steps_given_up = 0
@@ -87,7 +91,9 @@ class SimNode(Node):
         if self.settings.speed_source == "topic":
             subscribe_speed(self, self._speed)
         self._outputs = Outputs(self, self.model.vehicle, self.settings)
-        self._start_time: int = self.get_clock().now().nanoseconds
+        if self.get_parameter("use_sim_time").value:
+            self.get_logger().warning("use_sim_time: not followed, for this node makes the time")
+        self._start_time = time.time_ns()
         self.recorder = Recorder(self._open_run)
         if self.settings.record:
             self._start_recording(self.settings.record_directory)
@@ -108,10 +114,8 @@ class SimNode(Node):
         if self.settings.publish_tf and self._outputs.without_tf:
             self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
         self._publish(steps=0)
-        period, rate = self.grid.period_ns, self.settings.real_time_factor
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
-        most = max(int(CATCH_UP_NS * max(rate, 1.0)) // period, LEAST_CATCH_UP)
-        self._pacer = Pacer(period, most, rate, time.monotonic_ns())
+        self._pacer = Pacer(self.grid.period_ns, self.settings.real_time_factor, time.monotonic_ns())
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(self._timer_period(), self._on_timer, clock=steady)
         self.add_on_set_parameters_callback(self._check_parameters)
@@ -181,8 +185,7 @@ class SimNode(Node):
         """Time that the stamps of commands are held against: what their senders' clock shows."""
         if self.settings.publish_clock:
             return self._stamp(self._stepper.step)
-        clock_time: int = self.get_clock().now().nanoseconds
-        return clock_time
+        return time.time_ns()
 
     def _timer_period(self) -> float:
         rate = self.settings.real_time_factor
@@ -247,7 +250,7 @@ class SimNode(Node):
                 self._start_recording("")
             else:
                 self.recorder.stop()
-        except LogError as error:
+        except YawdampError as error:
             response.success, response.message = False, str(error)
             return response
         response.success, response.message = self.recorder.failure is None, self.recorder.state
@@ -259,7 +262,6 @@ class SimNode(Node):
         self.get_logger().info(f"recording to {path}")
 
     def _open_run(self, directory: Path) -> RunWriter:
-        source = VehicleSource(vehicle_text(self.settings.vehicle), _vehicle_overrides(self.settings))
         return open_run(
             directory,
             self._outputs.messages,
@@ -267,7 +269,7 @@ class SimNode(Node):
             self.grid,
             start_time=self._start_time,
             parameters=asdict(self.settings),
-            vehicle=source,
+            vehicle=self._source,
             topics=[*(self.resolve_topic_name(name) for name in INPUT_TYPES), *self._outputs.topics],
         )
 
@@ -298,17 +300,7 @@ class SimNode(Node):
             speed=self._stepper.model.speed,
         )
         self._worst_lateness = 0.0
-        stamp = self.get_clock().now().nanoseconds
-        self._diagnostics.publish(self._diagnosis.of(readings, elapsed, stamp))
-
-
-def _model(settings: SimParameters) -> LinearModel:
-    vehicle = load_vehicle(settings.vehicle, _vehicle_overrides(settings))
-    return linear_model(vehicle, settings.speed or None, settings.model)
-
-
-def _vehicle_overrides(settings: SimParameters) -> tuple[str, ...]:
-    return tuple(override for override in settings.vehicle_overrides if override)
+        self._diagnostics.publish(self._diagnosis.of(readings, elapsed, time.time_ns()))
 
 
 def _of_input(settings: SimParameters, grid: TimeGrid) -> dict[str, Any]:

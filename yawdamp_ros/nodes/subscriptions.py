@@ -66,8 +66,7 @@ class SteeringSubscription:
         step: Callable[[], int],
         now: Callable[[], int],
     ) -> None:
-        self.without_joint = 0
-        self._warned_at: dict[Verdict | None, float] = {}
+        self._warned_at: dict[Verdict, float] = {}
         self._node = node
         self._angle = STEERING_TYPES[type_name]
         self._joint = joint
@@ -79,8 +78,8 @@ class SteeringSubscription:
     def _receive(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
         command = self._angle(message, self._joint)
         if command is None:
-            self.without_joint += 1
-            self._warn(None, f"no joint {self._joint!r} with a position, {self.without_joint} so far")
+            self._target.refuse(Verdict.NO_JOINT)
+            self._warn(Verdict.NO_JOINT, f"no joint {self._joint!r} with a position")
             return
         stamp = message_stamp(message)
         age = (self._now() - stamp) / SECOND if stamp else None
@@ -90,7 +89,7 @@ class SteeringSubscription:
             count = self._target.counts[verdict]
             self._warn(verdict, f"{command}{stamped}: {verdict.value}, {count} so far")
 
-    def _warn(self, kind: Verdict | None, text: str) -> None:
+    def _warn(self, kind: Verdict, text: str) -> None:
         # rclpy throttles by line of code; of two kinds of trouble neither may hide the other.
         now = time.monotonic()
         if now - self._warned_at.get(kind, -WARNING_PERIOD) >= WARNING_PERIOD:

@@ -2,6 +2,11 @@
 
 from typing import NamedTuple
 
+CATCH_UP_NS = 100_000_000
+"""Longest delay in ns of the clock that is made up for."""
+LEAST_CATCH_UP = 10
+"""Sample periods that are made up for even where they are longer than that."""
+
 
 class Due(NamedTuple):
     """What a look at the clock asks for.
@@ -24,24 +29,22 @@ class Due(NamedTuple):
 class Pacer:
     """Keeps simulated time beside a steady clock, at a rate.
 
-    The clock is asked, not counted in callbacks: a timer skips the cycles that it misses.
+    The clock is asked, not counted in callbacks: a timer skips the cycles that it misses. A delay of up to
+    `CATCH_UP_NS`, or `LEAST_CATCH_UP` periods, is made up for; what is later is given up, so that a process
+    that was stopped does not run through minutes in a burst.
 
     Parameters
     ----------
     period_ns : int
         Sample period in ns of simulated time.
-    most : int
-        Periods that are made up for at once; what is later than that is given up, so that a process that
-        was stopped does not run through minutes in a burst.
     rate : float
         Simulated time over the clock's; 0: as fast as it goes.
     now : int
         Steady time of the first sample in ns.
     """
 
-    def __init__(self, period_ns: int, most: int, rate: float, now: int) -> None:
+    def __init__(self, period_ns: int, rate: float, now: int) -> None:
         self._period_ns = period_ns
-        self._most = most
         self._rate = rate
         self._since = now
         self._ahead = 0.0
@@ -72,14 +75,17 @@ class Pacer:
         if self._paused:
             return Due(0, 0, 0.0)
         if not self._rate:
-            return Due(self._most, 0, 0.0)
+            return Due(self._most(), 0, 0.0)
         # Whole periods stay integers: over days, only what is left of one is a float.
         self._bank(now)
         periods = int(self._ahead // self._period_ns)
         self._ahead -= periods * self._period_ns
-        given_up = max(periods - self._most, 0)
+        given_up = max(periods - self._most(), 0)
         late = (max(periods - 1, 0) * self._period_ns + self._ahead) / self._rate if periods else 0.0
         return Due(periods - given_up, given_up, late)
+
+    def _most(self) -> int:
+        return max(int(CATCH_UP_NS * max(self._rate, 1.0)) // self._period_ns, LEAST_CATCH_UP)
 
     def _bank(self, now: int) -> None:
         """Turn the time since the last look into simulated time that is due."""

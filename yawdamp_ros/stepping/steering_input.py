@@ -10,6 +10,7 @@ class Verdict(Enum):
     TAKEN = "taken"
     CLAMPED = "clamped to max_steering_angle"
     NOT_FINITE = "refused, not a finite angle"
+    NO_JOINT = "refused, without the joint that steers"
     STALE = "refused, its stamp is not of now"
 
 
@@ -64,9 +65,15 @@ class SteeringInput:
             self._angle, self._received_at = angle, step
         return verdict
 
+    def refuse(self, verdict: Verdict) -> None:
+        """Count a message that held no command."""
+        self.counts[verdict] += 1
+
     def at(self, step: int) -> float:
-        """Road-wheel steer angle in rad asked for from a step on."""
-        return 0.0 if self.zero_on_timeout and self.timed_out(step) else self._angle
+        """Road-wheel steer angle in rad asked for from a step on, within the limit of now."""
+        if self.zero_on_timeout and self.timed_out(step):
+            return 0.0
+        return min(max(self._angle, -self.limit), self.limit)
 
     def silence(self, step: int) -> int | None:
         """Steps since the last command; None before the first."""

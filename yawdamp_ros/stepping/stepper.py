@@ -28,6 +28,8 @@ class Snapshot(NamedTuple):
         State, yaw of the lead unit, held steer angle.
     x, y : float
         Of the lead unit's centre of gravity in the ground frame, m.
+    sampled : bool
+        Whether this instant's sample was taken, and its inputs told.
     """
 
     step: int
@@ -35,6 +37,7 @@ class Snapshot(NamedTuple):
     vector: tuple[float, ...]
     x: float
     y: float
+    sampled: bool
 
 
 class Stepper:
@@ -107,7 +110,8 @@ class Stepper:
 
     def snapshot(self) -> Snapshot:
         """What `restore` needs to go on from this instant."""
-        return Snapshot(self.step, self.model.speed, tuple(self._vector.tolist()), self._x, self._y)
+        vector = tuple(self._vector.tolist())
+        return Snapshot(self.step, self.model.speed, vector, self._x, self._y, not self._inputs)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go on from a snapshot of the same vehicle and model; its inputs count as told."""

@@ -1,5 +1,6 @@
 """Simulated time, counted in whole steps of whole nanoseconds."""
 
+import math
 from dataclasses import dataclass
 
 from yawdamp_ros.stepping.errors import SteppingError
@@ -39,6 +40,10 @@ class TimeGrid:
         SteppingError
             If the step is shorter than 1 us, or the period is not a whole number of steps.
         """
+        for name, value in (("step_size", step_size), ("sample_period", sample_period)):
+            if not (math.isfinite(value) and value > 0.0):
+                message = f"{name}: {value}: expected a time in s above 0"
+                raise SteppingError(message)
         step_ns, period_ns = nanoseconds(step_size), nanoseconds(sample_period)
         if step_ns < 1000:  # noqa: PLR2004 - a microsecond
             message = f"step_size: {step_size}: expected at least 1e-06 s"

@@ -74,6 +74,8 @@ def vehicle_text(vehicle: str | Path) -> str:
     """
     source = str(vehicle)
     builtins = builtin_vehicles()
+    if not source:
+        raise VehicleError("''", "", f"no such vehicle; expected a file or one of {', '.join(builtins)}")
     path = _builtin_directory() / f"{source}.yaml" if source in builtins else Path(vehicle)
     try:
         return path.read_text(encoding="utf-8")
