@@ -1,15 +1,32 @@
 """Modes, measures and sweeps: arrays in, small result types out."""
 
+from yawdamp_ros.analysis.assessment import Finding, assess, failed
 from yawdamp_ros.analysis.boundaries import (
     SPEEDS,
     Boundary,
     critical_speed,
     find_boundaries,
     speed_boundaries,
+    zero_damping_speed,
 )
 from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.analysis.lane_change import (
+    SAE_J2179,
+    SAE_J2179_SPEED,
+    SingleLaneChange,
+    run_lane_change,
+    steer_axle,
+)
 from yawdamp_ros.analysis.locus import Locus, eigenvalue_locus
+from yawdamp_ros.analysis.measures import MEASURES, Level, Measure
 from yawdamp_ros.analysis.modes import Mode, least_damping_ratio, modes, rightmost
+from yawdamp_ros.analysis.offtracking import axle_path, high_speed_transient_offtracking, steady_offtracking
+from yawdamp_ros.analysis.rearward_amplification import (
+    PeakAmplification,
+    amplification_at,
+    peak_amplification,
+    rearward_amplification,
+)
 from yawdamp_ros.analysis.steady_turn import (
     SteadyTurn,
     Steering,
@@ -19,27 +36,49 @@ from yawdamp_ros.analysis.steady_turn import (
 )
 from yawdamp_ros.analysis.transfer_function import TransferFunction, transfer_function
 from yawdamp_ros.analysis.variation import Variation, parse_variation
+from yawdamp_ros.analysis.yaw_damping import pulse_decay, yaw_damping_coefficient
 
 __all__ = [
+    "MEASURES",
+    "SAE_J2179",
+    "SAE_J2179_SPEED",
     "SPEEDS",
     "AnalysisError",
     "Boundary",
+    "Finding",
+    "Level",
     "Locus",
+    "Measure",
     "Mode",
+    "PeakAmplification",
+    "SingleLaneChange",
     "SteadyTurn",
     "Steering",
     "TransferFunction",
     "Variation",
+    "amplification_at",
+    "assess",
+    "axle_path",
     "critical_speed",
     "eigenvalue_locus",
+    "failed",
     "find_boundaries",
+    "high_speed_transient_offtracking",
     "least_damping_ratio",
     "modes",
     "parse_variation",
+    "peak_amplification",
+    "pulse_decay",
+    "rearward_amplification",
     "rightmost",
+    "run_lane_change",
     "speed_boundaries",
     "static_gains",
+    "steady_offtracking",
     "steady_steering",
     "steady_turn",
+    "steer_axle",
     "transfer_function",
+    "yaw_damping_coefficient",
+    "zero_damping_speed",
 ]

@@ -108,6 +108,14 @@ def critical_speed(boundaries: Iterable[Boundary]) -> float | None:
     return next((boundary.value for boundary in boundaries if boundary.unstable_above), None)
 
 
+def zero_damping_speed(boundaries: Iterable[Boundary]) -> float | None:
+    """Lowest speed in m/s at which the damping ratio of a swinging mode falls to 0, if there is one.
+
+    It is the zero-damping speed of ISO 14791, of which only the catalogue page was readable.
+    """
+    return next((b.value for b in boundaries if b.unstable_above and b.kind == "oscillatory"), None)
+
+
 def _boundary(value: float, unstable_above: bool, eigenvalue: complex) -> Boundary:  # noqa: FBT001
     kind: Kind
     if abs(eigenvalue.real) > _JUMP:

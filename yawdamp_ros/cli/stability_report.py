@@ -21,8 +21,7 @@ from yawdamp_ros.analysis import (
 )
 from yawdamp_ros.cli.console import print_table
 from yawdamp_ros.dynamics import LinearModel
-
-STANDARD_GRAVITY = 9.80665
+from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from yawdamp_ros.dynamics import LinearModel, linear_model
-from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.dynamics.kinematics import FloatArray, coupled_positions
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 
 KNOWN_SPEEDS = 1024
@@ -174,7 +174,7 @@ class Stepper:
         yaw = np.empty(count)
         yaw[0] = self._vector[-2]
         yaw[1:] = yaw[0] - np.cumsum(articulation)
-        x, y = self._positions(yaw)
+        x, y = coupled_positions(self._hitches, self._x, self._y, yaw)
         inputs, self._inputs = tuple(self._inputs), []
         return Sample(
             step=self.step,
@@ -210,16 +210,6 @@ class Stepper:
         sine, cosine = math.sin(yaw), math.cos(yaw)
         self._x_rate = self.model.speed * cosine - lateral_velocity * sine
         self._y_rate = self.model.speed * sine + lateral_velocity * cosine
-
-    def _positions(self, yaw: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Centres of gravity by the true geometry of the hitches, so that units stay coupled."""
-        cosine, sine = np.cos(yaw), np.sin(yaw)
-        x, y = np.empty_like(yaw), np.empty_like(yaw)
-        x[0], y[0] = self._x, self._y
-        for index, (rear_hitch, front_hitch) in enumerate(self._hitches):
-            x[index + 1] = x[index] + rear_hitch * cosine[index] - front_hitch * cosine[index + 1]
-            y[index + 1] = y[index] + rear_hitch * sine[index] - front_hitch * sine[index + 1]
-        return x, y
 
 
 def _transition(model: LinearModel, step_size: float) -> FloatArray:

@@ -8,10 +8,11 @@ from yawdamp_ros.vehicle.load import (
     parse_vehicle,
     vehicle_text,
 )
-from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
+from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Axle, Unit, Vehicle
 from yawdamp_ros.vehicle.tyres import fancher_stiffness, printed_stiffness
 
 __all__ = [
+    "STANDARD_GRAVITY",
     "Axle",
     "Unit",
     "Vehicle",

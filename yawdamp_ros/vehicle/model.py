@@ -3,6 +3,9 @@
 from dataclasses import dataclass
 from itertools import pairwise
 
+STANDARD_GRAVITY = 9.80665
+"""In m/s^2."""
+
 
 @dataclass(frozen=True)
 class Axle:

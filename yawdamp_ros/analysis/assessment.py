@@ -1,0 +1,93 @@
+"""One combination against every measure."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.analysis.measures import MEASURES, Measure
+from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What came out for one measure.
+
+    Attributes
+    ----------
+    measure : Measure
+    speed : float
+        At which it was taken, in m/s.
+    value : float or None
+    passed : bool or None
+        Whether it meets its levels; None without a value or a level, or where a level takes a static rollover
+        threshold that is not given and no other level is failed.
+    reason : str
+        Why there is no value; empty where that needs no saying.
+    """
+
+    measure: Measure
+    speed: float
+    value: float | None
+    passed: bool | None
+    reason: str = ""
+
+    @property
+    def level(self) -> str | None:
+        """Levels of the measure as text."""
+        return "; ".join(level.text for level in self.measure.levels) or None
+
+
+def assess(
+    vehicle: Vehicle, model: str = "consistent", speed: float | None = None, srt: float | None = None
+) -> tuple[Finding, ...]:
+    """Take every measure of a vehicle.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    model : str
+        One of `yawdamp_ros.dynamics.MODELS`.
+    speed : float, optional
+        For every measure, in m/s; unless given each is taken at its standard's speed or, where that names
+        none, at the vehicle's own.
+    srt : float, optional
+        Static rollover threshold of the rear roll-coupled unit in g, which this planar model cannot tell.
+
+    Returns
+    -------
+    tuple of Finding
+        In the order of `MEASURES`.
+
+    Raises
+    ------
+    AnalysisError
+        If the threshold is not positive.
+    DynamicsError
+        If there is no such model of this vehicle at that speed.
+    """
+    if srt is not None and not 0.0 < srt < float("inf"):
+        message = f"srt: {srt}: expected a static rollover threshold in g, above 0"
+        raise AnalysisError(message)
+    return tuple(_find(measure, vehicle, model, speed, srt) for measure in MEASURES.values())
+
+
+def failed(findings: Iterable[Finding]) -> bool:
+    """Whether any level is failed."""
+    return any(finding.passed is False for finding in findings)
+
+
+def _find(measure: Measure, vehicle: Vehicle, model: str, speed: float | None, srt: float | None) -> Finding:
+    at = linear_model(vehicle, speed or measure.speed or vehicle.speed, model)
+    try:
+        value = measure.value(at)
+    except AnalysisError as error:
+        return Finding(measure, at.speed, None, None, str(error))
+    return Finding(measure, at.speed, value, _judge(measure, value, srt))
+
+
+def _judge(measure: Measure, value: float | None, srt: float | None) -> bool | None:
+    if value is None or not measure.levels:
+        return None
+    met = [level.met(value, srt) for level in measure.levels]
+    return False if False in met else None if None in met else True

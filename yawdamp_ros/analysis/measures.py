@@ -1,0 +1,177 @@
+"""The measures that a combination is judged by: what each is, at which speed, against which level.
+
+The levels are those of the Australian Performance-Based Standards scheme (PBS; the South African pilot has
+the same) and of the Canadian RTAC study. All were read in secondary sources, none in the standard itself.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from yawdamp_ros.analysis import boundaries, offtracking
+from yawdamp_ros.analysis.lane_change import SAE_J2179, SAE_J2179_SPEED, run_lane_change
+from yawdamp_ros.analysis.modes import least_damping_ratio
+from yawdamp_ros.analysis.rearward_amplification import (
+    FREQUENCIES,
+    peak_amplification,
+    rearward_amplification,
+)
+from yawdamp_ros.analysis.steady_turn import steady_steering
+from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH, pulse_decay, yaw_damping_coefficient
+from yawdamp_ros.dynamics import LinearModel
+
+PBS_DAMPING_SPEED = 80.0 / 3.6
+"""In m/s."""
+
+
+@dataclass(frozen=True)
+class Level:
+    """What a standard asks of a measure.
+
+    Attributes
+    ----------
+    text : str
+        As tables show it.
+    limit : float
+        In the measure's unit, or per g of static rollover threshold.
+    kind : str
+        ``least`` and ``above`` bound the value from below, ``most`` from above.
+    per_srt : bool
+        Whether the limit is times the static rollover threshold of the rear roll-coupled unit.
+    """
+
+    text: str
+    limit: float
+    kind: str = "most"
+    per_srt: bool = False
+
+    def met(self, value: float, srt: float | None) -> bool | None:
+        """Whether a value meets the level; None where that takes a threshold in g that is not given."""
+        if self.per_srt and srt is None:
+            return None
+        limit = self.limit * (srt or 1.0) if self.per_srt else self.limit
+        return {"least": value >= limit, "above": value > limit, "most": value <= limit}[self.kind]
+
+
+@dataclass(frozen=True)
+class Measure:
+    """One measure of lateral performance.
+
+    Attributes
+    ----------
+    name : str
+        In tables, JSON and CSV.
+    unit : str
+        Empty for a ratio.
+    definition : str
+        What is computed, and whose measure it is.
+    value : callable
+        Its value for a model: None where there is none. It raises `AnalysisError` where the question has no
+        answer, as that for a lane change of an unstable vehicle.
+    speed : float or None
+        That its standard asks for, in m/s; None: the vehicle's own.
+    levels : tuple of Level
+    """
+
+    name: str
+    unit: str
+    definition: str
+    value: Callable[[LinearModel], float | None]
+    speed: float | None = None
+    levels: tuple[Level, ...] = ()
+
+
+def _lane_change_offtracking(model: LinearModel) -> float:
+    return offtracking.high_speed_transient_offtracking(model.vehicle, run_lane_change(model))
+
+
+def _critical_speed(model: LinearModel) -> float | None:
+    return boundaries.critical_speed(boundaries.speed_boundaries(model.vehicle, model.model))
+
+
+_J2179 = (
+    "in the single lane change of SAE J2179 and ISO 14791, the steer axle's lateral acceleration one sine "
+    f"period of {SAE_J2179.amplitude:.4g} m/s2 at {SAE_J2179.frequency:g} Hz"
+)
+_LOWEST, _HIGHEST = boundaries.SPEEDS
+
+_ALL = (
+    Measure(
+        "least_damping_ratio",
+        "",
+        "smallest -Re/abs of the eigenvalues of the state matrix",
+        least_damping_ratio,
+        levels=(Level("> 0 (stable)", 0.0, "above"),),
+    ),
+    Measure(
+        "yaw_damping_coefficient",
+        "",
+        "from the mean ratio of successive same-sign peaks of the last unit's yaw rate after a steering "
+        f"pulse of {PULSE_WIDTH:g} s (PBS), once the lightest mode is alone",
+        lambda model: yaw_damping_coefficient(pulse_decay(model)),
+        PBS_DAMPING_SPEED,
+        (Level("PBS: >= 0.15", 0.15, "least"),),
+    ),
+    Measure(
+        "understeer_gradient",
+        "rad/(m/s2)",
+        "steer angle per lateral acceleration in a steady turn, beyond the Ackermann angle; "
+        "positive is understeer",
+        lambda model: steady_steering(model).understeer_gradient,
+    ),
+    Measure(
+        "critical_speed",
+        "m/s",
+        f"lowest speed from {_LOWEST:g} to {_HIGHEST:g} m/s at which an eigenvalue crosses into Re > 0",
+        _critical_speed,
+    ),
+    Measure(
+        "rearward_amplification",
+        "",
+        f"largest lateral acceleration of the last unit over that of the first, {_J2179}",
+        lambda model: rearward_amplification(run_lane_change(model).lateral_acceleration),
+        SAE_J2179_SPEED,
+        (Level("PBS: <= 5.7 SRT/g", 5.7, per_srt=True), Level("RTAC: <= 2.2", 2.2)),
+    ),
+    Measure(
+        "rearward_amplification_yaw_rate",
+        "",
+        f"largest yaw rate of the last unit over that of the first, {_J2179}",
+        lambda model: rearward_amplification(run_lane_change(model).yaw_rate),
+        SAE_J2179_SPEED,
+    ),
+    Measure(
+        "rearward_amplification_peak_gain",
+        "",
+        "largest ratio of lateral accelerations, last unit over first, in steady sine steering up to "
+        f"{FREQUENCIES[-1]:g} Hz (ISO 14791)",
+        lambda model: peak_amplification(model).gain,
+    ),
+    Measure(
+        "rearward_amplification_peak_frequency",
+        "Hz",
+        "where that largest ratio is reached",
+        lambda model: peak_amplification(model).frequency,
+    ),
+    Measure(
+        "high_speed_transient_offtracking",
+        "m",
+        f"largest lateral distance between the paths of the last axle and of the steer axle {_J2179}",
+        _lane_change_offtracking,
+        SAE_J2179_SPEED,
+        (
+            Level("PBS: <= 0.6, 0.8, 1.0, 1.2 for levels 1 to 4", 1.2),
+            Level("RTAC: <= 0.8", 0.8),
+        ),
+    ),
+    Measure(
+        "steady_offtracking",
+        "m",
+        "radius of the last axle's path less that of the steer axle's on a steady curve of "
+        f"{offtracking.STEADY_RADIUS:g} m; positive: outside",
+        offtracking.steady_offtracking,
+    ),
+)
+
+MEASURES: Mapping[str, Measure] = MappingProxyType({measure.name: measure for measure in _ALL})
+"""Every measure by its name."""
