@@ -6,7 +6,14 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
-from yawdamp_ros.analysis import critical_speed, eigenvalue_locus, find_boundaries, speed_boundaries
+from yawdamp_ros.analysis import (
+    critical_speed,
+    eigenvalue_locus,
+    find_boundaries,
+    least_damping_ratio,
+    speed_boundaries,
+    zero_damping_speed,
+)
 from yawdamp_ros.analysis.steady_turn import steady_steering
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.vehicle import load_vehicle
@@ -109,3 +116,14 @@ def test_an_eigenvalue_through_infinity_is_no_crossing() -> None:
     (boundary,) = find_boundaries(pole, [(1.0, pole(1.0)), (2.0, pole(2.0))])
     assert boundary.kind == "jump"
     assert boundary.value == pytest.approx(1.4)
+
+
+def test_zero_damping_speed_is_that_of_the_first_mode_that_swings() -> None:
+    # The trailer's load far back: it sways; the car's rear tyres soft: it spins, and swings at no speed.
+    trailer = load_vehicle("truck_trailer", ["units.1.front_hitch=11.483", "units.1.axles.0.position=0.24"])
+    (sway,) = speed_boundaries(trailer)
+    assert sway.kind == "oscillatory"
+    assert zero_damping_speed([sway]) == critical_speed([sway]) == sway.value
+    assert least_damping_ratio(linear_model(trailer, sway.value)) == pytest.approx(0.0, abs=1e-9)
+    (spin,) = speed_boundaries(load_vehicle("single_vehicle", ["units.0.axles.1.cornering_stiffness=4e4"]))
+    assert zero_damping_speed([spin]) is None

@@ -16,6 +16,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "simulate": "the same run offline, as fast as it goes",
         "resimulate": "run a recorded run again and say whether it is bit-identical",
         "stability": "modes, damping, understeer gradient, critical speed; root locus, Bode, Nyquist",
+        "assess": "rearward amplification, yaw damping, offtracking against the levels of the field",
         "plot": "the curves of a run, or of several compared, as a picture",
         "urdf": "a vehicle as URDF, for robot_state_publisher",
     }

@@ -1,0 +1,90 @@
+"""The command `assess`: what scripts and people read of it."""
+
+import json
+
+import pytest
+
+from yawdamp_ros.analysis import MEASURES
+from yawdamp_ros.cli import run
+
+
+def answer(
+    capsys: pytest.CaptureFixture[str], *arguments: str, status: int = 0
+) -> dict[str, dict[str, object]]:
+    assert run(["assess", *arguments, "--format", "json"]) == status
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    return {row["measure"]: row for row in json.loads(captured.out)}
+
+
+def test_json_is_a_list_of_what_the_contract_names(capsys: pytest.CaptureFixture[str]) -> None:
+    rows = answer(capsys)
+    assert list(rows) == list(MEASURES)
+    for row in rows.values():
+        assert list(row) == ["measure", "value", "unit", "level", "pass", "definition"]
+    assert rows["least_damping_ratio"]["value"] == pytest.approx(0.658, abs=5e-4)
+    assert rows["least_damping_ratio"]["pass"] is True
+    assert rows["critical_speed"]["value"] is None
+    assert rows["rearward_amplification"]["pass"] is None
+    assert "at 24.4444 m/s" in rows["rearward_amplification"]["definition"]
+
+
+def test_status_is_1_where_a_level_is_failed(capsys: pytest.CaptureFixture[str]) -> None:
+    rows = answer(capsys, "--vehicle", "a_double", status=1)
+    assert rows["high_speed_transient_offtracking"]["pass"] is False
+    assert [name for name, row in rows.items() if row["pass"] is False] == [
+        "high_speed_transient_offtracking"
+    ]
+
+
+def test_rollover_threshold_is_an_input(capsys: pytest.CaptureFixture[str]) -> None:
+    assert answer(capsys, "--srt", "0.35")["rearward_amplification"]["pass"] is True
+
+
+def test_speed_model_and_changes_are_those_of_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    slow = answer(capsys, "--speed", "10", "--set", "units.2.mass=20000")
+    assert all("at 10 m/s" in row["definition"] for row in slow.values())
+    published = answer(capsys, "--model", "published")
+    assert published["rearward_amplification"]["value"] is None
+    assert "cannot be held on a lane change" in published["rearward_amplification"]["definition"]
+
+
+def test_text_gives_value_unit_verdict_and_level(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["assess", "--vehicle", "a_double", "--srt", "0.3"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+
+    def cells(measure: str) -> list[str]:
+        (line,) = (line for line in lines if line.startswith(f"│ {measure} "))
+        return [cell.strip() for cell in line.strip("│").split("│")]
+
+    assert cells("high_speed_transient_offtracking")[1:5] == ["1.018", "m", "24.44", "FAIL"]
+    assert cells("yaw_damping_coefficient")[4:] == ["pass", "PBS: >= 0.15"]
+    assert cells("rearward_amplification")[4] == "FAIL"
+    assert any(line.startswith("understeer gradient: ") and line.endswith("deg/g") for line in lines)
+    assert "Definitions; levels are from secondary sources" in lines
+
+
+def test_text_says_why_there_is_no_value(capsys: pytest.CaptureFixture[str]) -> None:
+    unstable = ["--set", "units.0.axles.1.cornering_stiffness=3e4", "--speed", "40"]
+    assert run(["assess", "--vehicle", "single_vehicle", *unstable]) == 1
+    text = capsys.readouterr().out
+    assert text.count("no value: single_vehicle at 40 m/s: unstable: there is no lane change") == 1
+
+
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (["--srt", "-1"], "srt: -1.0: expected a static rollover threshold in g"),
+        (["--srt", "high"], "argument --srt: invalid float value"),
+        (["--vehicle", "bicycle"], "bicycle: no such vehicle"),
+        (["--speed", "0"], "speed: 0.0: expected a speed in m/s"),
+    ],
+)
+def test_wrong_use_is_one_line_and_status_2(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["assess", *arguments]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert said in captured.err

@@ -1,0 +1,102 @@
+"""`assess`: a combination against the measures that the field judges it by."""
+
+import argparse
+import json
+import math
+from collections.abc import Sequence
+
+from yawdamp_ros.analysis import Finding, assess, failed
+from yawdamp_ros.cli.console import print_table
+from yawdamp_ros.cli.options import (
+    DEFAULT_MODEL,
+    Parser,
+    add_format_option,
+    add_vehicle_options,
+    chosen_vehicle,
+)
+from yawdamp_ros.vehicle import STANDARD_GRAVITY
+
+VERDICTS = {True: "pass", False: "FAIL", None: "n/a"}
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run the command; 1 if a level is failed."""
+    options = _parser().parse_args(argv)
+    vehicle = chosen_vehicle(options)
+    model = options.model or DEFAULT_MODEL
+    findings = assess(vehicle, model, options.speed, options.srt)
+    if options.format == "json":
+        print(json.dumps([_record(finding) for finding in findings], indent=2))
+    else:
+        _print_text(f"{vehicle.name}, {model} model", findings)
+    return 1 if failed(findings) else 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(
+        "assess",
+        "Rearward amplification, yaw damping, offtracking, understeer and critical speed of a combination,\n"
+        "with the levels of the Australian PBS scheme and of RTAC. Each measure is taken at the speed that\n"
+        "its standard names, else at the vehicle's own; --speed is for all.\n"
+        "Exit status: 0 if no level is failed, 1 if one is, 2 for wrong use.",
+        "python -m yawdamp_ros assess --vehicle a_double --srt 0.4",
+    )
+    add_vehicle_options(parser)
+    add_format_option(parser)
+    parser.add_argument(
+        "--srt",
+        type=float,
+        metavar="G",
+        help="static rollover threshold of the rear roll-coupled unit in g, which a planar model cannot "
+        "tell; without it the level that takes it is open",
+    )
+    return parser
+
+
+def _record(finding: Finding) -> dict[str, object]:
+    return {
+        "measure": finding.measure.name,
+        "value": finding.value,
+        "unit": finding.measure.unit,
+        "level": finding.level,
+        "pass": finding.passed,
+        "definition": _definition(finding),
+    }
+
+
+def _definition(finding: Finding) -> str:
+    reason = f"; no value: {finding.reason}" if finding.reason else ""
+    return f"{finding.measure.definition}; at {finding.speed:.6g} m/s{reason}"
+
+
+def _print_text(title: str, findings: Sequence[Finding]) -> None:
+    print_table(
+        title,
+        ("measure", "value", "unit", "at m/s", "verdict", "level"),
+        [
+            (
+                finding.measure.name,
+                "none" if finding.value is None else f"{finding.value:.4g}",
+                finding.measure.unit,
+                f"{finding.speed:.2f}",
+                VERDICTS[finding.passed],
+                finding.level or "",
+            )
+            for finding in findings
+        ],
+    )
+    values = {finding.measure.name: finding.value for finding in findings}
+    gradient = values["understeer_gradient"]
+    if gradient is not None:
+        print(f"understeer gradient: {math.degrees(gradient) * STANDARD_GRAVITY:.4g} deg/g")
+    for reason in dict.fromkeys(finding.reason for finding in findings if finding.reason):
+        print(f"no value: {reason}")
+    if any(
+        level.per_srt for finding in findings for level in finding.measure.levels if finding.passed is None
+    ):
+        print(
+            "--srt G, the static rollover threshold, decides on the level of PBS for rearward amplification"
+        )
+    print("\nDefinitions; levels are from secondary sources")
+    for finding in findings:
+        print(f"  {finding.measure.name}: {finding.measure.definition}")
