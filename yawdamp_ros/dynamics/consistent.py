@@ -2,6 +2,7 @@
 
 The assumptions are Frerichs' (2012, 4.1.1, 4.2.1, 5.1): one track, constant longitudinal speed, no
 longitudinal tyre force, lateral tyre force linear in slip angle, rigid frictionless hitches, flat road.
+A stack of vehicles is assembled at once: leading axes of every array are those of the stack.
 """
 
 from dataclasses import dataclass
@@ -49,21 +50,20 @@ def equations_of_motion(vehicle: Vehicle) -> EquationsOfMotion:
     EquationsOfMotion
     """
     rows = cg_rows(vehicle)
-    size = rows.shape[1]
+    size = rows.shape[-1]
     mass, damping, stiffness = (np.zeros((size, size)) for _ in range(3))
     steering = np.zeros(size)
-    for index, (unit, row) in enumerate(zip(vehicle.units, rows, strict=True)):
-        heading = index + 1
-        mass += unit.mass * np.outer(row, row)
-        mass[heading, heading] += unit.yaw_inertia
+    for index, unit in enumerate(vehicle.units):
+        row, heading = rows[..., index, :], np.eye(size)[index + 1]
+        mass = mass + _each(unit.mass, 2) * _outer(row, row)
+        mass = mass + _each(unit.yaw_inertia, 2) * _outer(heading, heading)
         for axle in unit.axles:
-            lever = row.copy()
-            lever[heading] += axle.position
-            force = axle.cornering_stiffness * lever
-            damping += np.outer(force, lever)
-            stiffness[:, heading] += force
+            lever = row + _each(axle.position, 1) * heading
+            force = _each(axle.cornering_stiffness, 1) * lever
+            damping = damping + _outer(force, lever)
+            stiffness = stiffness + _outer(force, heading)
             if axle.steered:
-                steering += force
+                steering = steering + force
     return EquationsOfMotion(mass, damping, stiffness, steering)
 
 
@@ -77,28 +77,41 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     ----------
     vehicle : Vehicle
     speed : float
-        Longitudinal speed u in m/s, positive.
+        Longitudinal speed u in m/s, positive; of a stack, one for all or for each.
 
     Returns
     -------
-    state_matrix : ndarray, shape (2 n, 2 n)
-    input_matrix : ndarray, shape (2 n,)
+    state_matrix : ndarray, shape (..., 2 n, 2 n)
+        Of a stack, one matrix a vehicle.
+    input_matrix : ndarray, shape (..., 2 n)
         By road-wheel steer angle in rad.
     """
     motion = equations_of_motion(vehicle)
     count = len(vehicle.units)
     rates = count + 1
-    forces = np.zeros((rates, 2 * count))
-    forces[:, :rates] = -motion.damping / speed
-    forces[:, 1] -= speed * motion.mass[:, 0]
+    damping = motion.damping / _each(speed, 2)
+    inertia = _each(speed, 1) * motion.mass[..., 0]
+    stack = np.broadcast_shapes(damping.shape[:-2], inertia.shape[:-1], motion.stiffness.shape[:-2])
+    forces = np.zeros((*stack, rates, 2 * count))
+    forces[..., :rates] = -damping
+    forces[..., 1] -= inertia
     for joint in range(count - 1):
         # psi_k = psi_1 - (theta_1 + .. + theta_(k-1)): a joint turns every unit behind it.
-        forces[:, rates + joint] = -motion.stiffness[:, joint + 2 :].sum(axis=1)
-    state_matrix = np.zeros((2 * count, 2 * count))
-    state_matrix[:rates] = np.linalg.solve(motion.mass, forces)
+        forces[..., rates + joint] = -motion.stiffness[..., joint + 2 :].sum(axis=-1)
+    state_matrix = np.zeros((*stack, 2 * count, 2 * count))
+    state_matrix[..., :rates, :] = np.linalg.solve(motion.mass, forces)
     joints = np.arange(count - 1)
-    state_matrix[rates + joints, 1 + joints] = 1.0
-    state_matrix[rates + joints, 2 + joints] = -1.0
-    input_matrix = np.zeros(2 * count)
-    input_matrix[:rates] = np.linalg.solve(motion.mass, motion.steering)
+    state_matrix[..., rates + joints, 1 + joints] = 1.0
+    state_matrix[..., rates + joints, 2 + joints] = -1.0
+    input_matrix = np.zeros((*stack, 2 * count))
+    input_matrix[..., :rates] = np.linalg.solve(motion.mass, motion.steering[..., np.newaxis])[..., 0]
     return state_matrix, input_matrix
+
+
+def _each(value: float, axes: int) -> FloatArray:
+    """A number of one vehicle, or of each of a stack, to be multiplied with vectors or matrices."""
+    return np.asarray(value, dtype=np.float64)[(..., *[np.newaxis] * axes)]
+
+
+def _outer(left: FloatArray, right: FloatArray) -> FloatArray:
+    return left[..., :, np.newaxis] * right[..., np.newaxis, :]

@@ -21,16 +21,17 @@ def cg_rows(vehicle: Vehicle) -> FloatArray:
 
     Returns
     -------
-    ndarray, shape (n, n + 1)
-        First column 1, the others lever arms in m.
+    ndarray, shape (..., n, n + 1)
+        First column 1, the others lever arms in m; of a stack whose hitches differ, one matrix a vehicle.
     """
     count = len(vehicle.units)
-    rows = np.zeros((count, count + 1))
-    rows[:, 0] = 1.0
+    stack = np.broadcast_shapes(*(np.shape(hitch) for pair in vehicle.hitches for hitch in pair))
+    rows = np.zeros((*stack, count, count + 1))
+    rows[..., 0] = 1.0
     for index, (rear_hitch, front_hitch) in enumerate(vehicle.hitches):
-        rows[index + 1] = rows[index]
-        rows[index + 1, index + 1] += rear_hitch
-        rows[index + 1, index + 2] -= front_hitch
+        rows[..., index + 1, :] = rows[..., index, :]
+        rows[..., index + 1, index + 1] += rear_hitch
+        rows[..., index + 1, index + 2] -= front_hitch
     return rows
 
 

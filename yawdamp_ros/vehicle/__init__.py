@@ -4,11 +4,12 @@ from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.load import (
     VehicleSource,
     builtin_vehicles,
+    load_stack,
     load_vehicle,
     parse_vehicle,
     vehicle_text,
 )
-from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Axle, Unit, Vehicle
+from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Axle, Unit, Vehicle, unstacked
 from yawdamp_ros.vehicle.tyres import fancher_stiffness, printed_stiffness
 
 __all__ = [
@@ -20,8 +21,10 @@ __all__ = [
     "VehicleSource",
     "builtin_vehicles",
     "fancher_stiffness",
+    "load_stack",
     "load_vehicle",
     "parse_vehicle",
     "printed_stiffness",
+    "unstacked",
     "vehicle_text",
 ]

@@ -3,22 +3,28 @@
 import json
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+import numpy.typing as npt
 from jsonschema import Draft202012Validator, ValidationError
 from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
 from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
+from yawdamp_ros.vehicle.loads import added_axle_loads, loaded
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 from yawdamp_ros.vehicle.tyres import fancher_stiffness
 
 LONGEST_WHEELBASE = 30.0
 """Longest believable unit in m: beyond it a file most likely holds millimetres."""
+
+LARGEST_TYRE_LOAD = 66700.0
+"""In N: up to there Fancher's formula gives more stiffness for more load, and the schema lets a file go."""
 
 
 class VehicleSource(NamedTuple):
@@ -110,13 +116,54 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     VehicleError
         If the text or an override is not valid.
     """
+    data = _overridden(text, source, overrides)
+    _check_schema(data, source)
+    _check_combination(data, source)
+    return _build(data, source)
+
+
+def load_stack(
+    text: str, source: str, overrides: Sequence[str], values: Mapping[str, npt.NDArray[np.float64]]
+) -> Vehicle:
+    """Turn the text of a vehicle file into a stack of vehicles that differ in the values of some keys.
+
+    Parameters
+    ----------
+    text, source, overrides
+        As for `parse_vehicle`; the overrides are applied before the values.
+    values : mapping of str to ndarray, shape (k,)
+        By key, as overrides take them, one value for each vehicle.
+
+    Returns
+    -------
+    Vehicle
+        Whose numbers are arrays, shape (k,), wherever they depend on the values.
+
+    Raises
+    ------
+    VehicleError
+        If the text, an override or any of the values is not valid.
+    """
+    data = _overridden(text, source, overrides)
+    # The schema holds each key to a range: a stack keeps to it if its extremes do.
+    for extreme in (np.min, np.max):
+        for key, column in values.items():
+            _set(data, key, float(extreme(column)), source)
+        _check_schema(data, source)
+    for key, column in values.items():
+        _set(data, key, column, source)
+    _check_combination(data, source)
+    return _build(data, source)
+
+
+def _overridden(text: str, source: str, overrides: Sequence[str]) -> Any:  # noqa: ANN401
     data = _parse_yaml(text, source)
     for override in overrides:
-        _apply_override(data, override, source)
-    _check_schema(data, source)
-    vehicle = _build(data)
-    _check_combination(vehicle, source)
-    return vehicle
+        key, separator, value = override.partition("=")
+        if not separator:
+            raise VehicleError(source, override, "expected KEY=VALUE, as in units.1.mass=4156")
+        _set(data, key, _parse_yaml(value, f"--set {override}"), source)
+    return data
 
 
 def _builtin_directory() -> Path:
@@ -142,11 +189,7 @@ def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until
         raise VehicleError(source, "", f"not valid YAML: {reason}") from error
 
 
-def _apply_override(data: Any, override: str, source: str) -> None:  # noqa: ANN401
-    key, separator, text = override.partition("=")
-    if not separator:
-        raise VehicleError(source, override, "expected KEY=VALUE, as in units.1.mass=4156")
-    value = _parse_yaml(text, f"--set {override}")
+def _set(data: Any, key: str, value: Any, source: str) -> None:  # noqa: ANN401
     *parents, last = key.split(".")
     node = data
     try:
@@ -197,84 +240,150 @@ def _numbers(node: Any, key: str) -> Iterator[tuple[str, float]]:  # noqa: ANN40
         yield key, node
 
 
-def _build(data: dict[str, Any]) -> Vehicle:
-    units = tuple(
-        Unit(
-            name=unit["name"],
-            mass=float(unit["mass"]),
-            yaw_inertia=float(unit["yaw_inertia"]),
-            axles=tuple(
-                Axle(
-                    position=float(axle["position"]),
-                    cornering_stiffness=_cornering_stiffness(axle),
-                    steered=axle.get("steered", False),
-                )
-                for axle in unit["axles"]
-            ),
-            front_hitch=_optional_float(unit.get("front_hitch")),
-            rear_hitch=_optional_float(unit.get("rear_hitch")),
-        )
-        for unit in data["units"]
+def _build(data: dict[str, Any], source: str) -> Vehicle:
+    return Vehicle(
+        name=data["name"],
+        speed=_number(data["speed"]),
+        units=tuple(
+            _build_unit(unit, stiffnesses)
+            for unit, stiffnesses in zip(data["units"], _cornering_stiffnesses(data, source), strict=True)
+        ),
     )
-    return Vehicle(name=data["name"], speed=float(data["speed"]), units=units)
 
 
-def _cornering_stiffness(axle: dict[str, Any]) -> float:
-    if "tyre_load" in axle:
-        return float(axle["tyres"] * fancher_stiffness(axle["tyre_load"]))
-    return float(axle["cornering_stiffness"])
+def _build_unit(unit: dict[str, Any], stiffnesses: Sequence[Any]) -> Unit:
+    mass, yaw_inertia, shift = loaded(unit)
+
+    def from_cg(position: Any) -> Any:  # noqa: ANN401 - a number, or one for each vehicle of a stack
+        return None if position is None else _number(position - shift)
+
+    return Unit(
+        name=unit["name"],
+        mass=_number(mass),
+        yaw_inertia=_number(yaw_inertia),
+        axles=tuple(
+            Axle(from_cg(axle["position"]), _number(stiffness), steered=axle.get("steered", False))
+            for axle, stiffness in zip(unit["axles"], stiffnesses, strict=True)
+        ),
+        front_hitch=from_cg(unit.get("front_hitch")),
+        rear_hitch=from_cg(unit.get("rear_hitch")),
+    )
 
 
-def _check_combination(vehicle: Vehicle, source: str) -> None:
+def _cornering_stiffnesses(data: dict[str, Any], source: str) -> list[list[Any]]:
+    """Of every axle of every unit, those by tyre load with what the loads of the file add."""
+    units = data["units"]
+    by_load = any("tyre_load" in axle for unit in units for axle in unit["axles"])
+    added = None
+    if by_load and any(unit.get("load") for unit in units):
+        _check_supports(units, source)
+        added = added_axle_loads(units)
+    return [
+        [
+            _tyres_stiffness(
+                axle, added[index][place] if added else 0.0, f"units.{index}.axles.{place}", source
+            )
+            if "tyre_load" in axle
+            else axle["cornering_stiffness"]
+            for place, axle in enumerate(unit["axles"])
+        ]
+        for index, unit in enumerate(units)
+    ]
+
+
+def _tyres_stiffness(axle: dict[str, Any], added: Any, key: str, source: str) -> Any:  # noqa: ANN401
+    load = axle["tyre_load"] + added / axle["tyres"]
+    found = _first((load <= 0.0) | (load > LARGEST_TYRE_LOAD), load)
+    if found:
+        raise VehicleError(
+            source,
+            f"{key}.tyre_load",
+            f"{found[0]:.0f} N with the loads on the vehicle: "
+            f"expected above 0 and up to {LARGEST_TYRE_LOAD:.0f} (Fancher's formula peaks there)",
+        )
+    return axle["tyres"] * fancher_stiffness(load)
+
+
+def _check_supports(units: Sequence[dict[str, Any]], source: str) -> None:
+    """Refuse units that statics finds no two supports for."""
+    steered = [axle.get("steered", False) for axle in units[0]["axles"]]
+    if all(steered):
+        raise VehicleError(
+            source, "units.0.axles", "every axle is steered: expected another one that shares the loads"
+        )
+    for index, unit in enumerate(units[1:], 1):
+        centre = sum(axle["position"] for axle in unit["axles"]) / len(unit["axles"])
+        if np.any(unit["front_hitch"] <= centre):
+            raise VehicleError(
+                source,
+                f"units.{index}.axles",
+                "expected them behind the front hitch, to share the loads with it",
+            )
+
+
+def _check_combination(data: dict[str, Any], source: str) -> None:
     """Refuse what each key alone cannot show."""
-    for index, unit in enumerate(vehicle.units):
-        key = f"units.{index}"
-        if index == 0 and unit.front_hitch is not None:
+    units = data["units"]
+    for index, unit in enumerate(units):
+        key, name = f"units.{index}", unit["name"]
+        if index == 0 and "front_hitch" in unit:
             raise VehicleError(
                 source, f"{key}.front_hitch", "the lead unit is not towed; expected no front hitch"
             )
-        if index > 0 and unit.front_hitch is None:
-            raise VehicleError(source, f"{key}.front_hitch", f"missing: {unit.name} is towed and needs one")
-        if index < len(vehicle.units) - 1 and unit.rear_hitch is None:
+        if index > 0 and "front_hitch" not in unit:
+            raise VehicleError(source, f"{key}.front_hitch", f"missing: {name} is towed and needs one")
+        if index < len(units) - 1 and "rear_hitch" not in unit:
             raise VehicleError(
-                source, f"{key}.rear_hitch", f"missing: {unit.name} tows the next unit and needs one"
+                source, f"{key}.rear_hitch", f"missing: {name} tows the next unit and needs one"
             )
         _check_lengths(unit, key, source)
-    name, count = Counter(vehicle.unit_names).most_common(1)[0]
+    names = [unit["name"] for unit in units]
+    name, count = Counter(names).most_common(1)[0]
     if count > 1:
-        last = len(vehicle.units) - 1 - vehicle.unit_names[::-1].index(name)
+        last = len(names) - 1 - names[::-1].index(name)
         raise VehicleError(source, f"units.{last}.name", f"{name!r}: expected a name not yet taken")
-    if not any(axle.steered for axle in vehicle.units[0].axles):
+    if not any(axle.get("steered", False) for axle in units[0]["axles"]):
         raise VehicleError(
             source, "units.0.axles", "no axle of the lead unit is steered; expected steered: true"
         )
 
 
-def _check_lengths(unit: Unit, key: str, source: str) -> None:
-    hitches = [hitch for hitch in (unit.front_hitch, unit.rear_hitch) if hitch is not None]
-    if len(hitches) > 1 and hitches[0] <= hitches[1]:
-        raise VehicleError(
-            source,
-            f"{key}.rear_hitch",
-            f"{hitches[1]}: expected a position behind the front hitch at {hitches[0]}",
-        )
-    positions = [axle.position for axle in unit.axles] + hitches
-    length = max(positions) - min(positions)
-    if length > LONGEST_WHEELBASE:
+def _check_lengths(unit: dict[str, Any], key: str, source: str) -> None:
+    hitches = [unit[name] for name in ("front_hitch", "rear_hitch") if name in unit]
+    if len(hitches) > 1:
+        found = _first(hitches[0] <= hitches[1], *hitches)
+        if found:
+            raise VehicleError(
+                source,
+                f"{key}.rear_hitch",
+                f"{found[1]}: expected a position behind the front hitch at {found[0]}",
+            )
+    positions = np.broadcast_arrays(*(axle["position"] for axle in unit["axles"]), *hitches)
+    length = np.max(positions, axis=0) - np.min(positions, axis=0)
+    found = _first(length > LONGEST_WHEELBASE, length)
+    if found:
         raise VehicleError(
             source,
             key,
-            f"{length:g} m from its foremost to its rearmost axle or hitch: "
+            f"{found[0]:g} m from its foremost to its rearmost axle or hitch: "
             f"expected at most {LONGEST_WHEELBASE:g} m, positions are in metres",
         )
 
 
+def _first(bad: Any, *values: Any) -> list[float] | None:  # noqa: ANN401
+    """Values of the first vehicle of a stack, or of the only one, that is bad; None where none is."""
+    if not np.any(bad):
+        return None
+    where, *arrays = np.broadcast_arrays(bad, *values)
+    return [float(array.flat[np.argmax(where)]) for array in arrays]
+
+
+def _number(value: Any) -> Any:  # noqa: ANN401
+    return value if isinstance(value, np.ndarray) else float(value)
+
+
 def _join(key: str, name: str) -> str:
     return f"{key}.{name}" if key else name
-
-
-def _optional_float(value: float | None) -> float | None:
-    return None if value is None else float(value)
 
 
 def _shorten(text: str, limit: int = 60) -> str:

@@ -1,7 +1,13 @@
-"""A combination as plain records: SI units, positions from the unit's own centre of gravity."""
+"""A combination as plain records: SI units, positions from the unit's own centre of gravity.
 
-from dataclasses import dataclass
+A `Vehicle` some of whose numbers are arrays of one length is a stack of vehicles, alike but for these:
+`load_stack` makes one, and the equations of motion of all are assembled at once.
+"""
+
+from dataclasses import dataclass, replace
 from itertools import pairwise
+
+import numpy as np
 
 STANDARD_GRAVITY = 9.80665
 """In m/s^2."""
@@ -89,3 +95,33 @@ class Vehicle:
                 raise ValueError(message)
             pairs.append((towing.rear_hitch, towed.front_hitch))
         return tuple(pairs)
+
+
+def unstacked(stack: Vehicle, index: int) -> Vehicle:
+    """One vehicle of a stack, its numbers floats."""
+
+    def pick(value: float) -> float:
+        return float(value[index]) if isinstance(value, np.ndarray) else value
+
+    def optional(value: float | None) -> float | None:
+        return None if value is None else pick(value)
+
+    units = tuple(
+        replace(
+            unit,
+            mass=pick(unit.mass),
+            yaw_inertia=pick(unit.yaw_inertia),
+            axles=tuple(
+                replace(
+                    axle,
+                    position=pick(axle.position),
+                    cornering_stiffness=pick(axle.cornering_stiffness),
+                )
+                for axle in unit.axles
+            ),
+            front_hitch=optional(unit.front_hitch),
+            rear_hitch=optional(unit.rear_hitch),
+        )
+        for unit in stack.units
+    )
+    return replace(stack, speed=pick(stack.speed), units=units)

@@ -1,0 +1,100 @@
+"""What loading does to a unit: mass, centre of gravity, inertia, and the loads of its axles.
+
+A unit is described without its loads, positions from its unladen centre of gravity. Loads add mass, move
+the centre of gravity, and add inertia by the parallel-axis theorem. Hitches and axles stay where they are
+on the unit: only the point that they are measured from moves.
+
+How the weight of the loads reaches the road is statics, from the rear of the combination to its front. A
+towed unit rests on its front hitch and on its axles; a lead unit on its steered axles and on the others.
+Assumed is that every hitch carries vertical force and no moment, and that the axles of a group share alike,
+as a compensated suspension lets them. The loads of the axles without load are those that the file gives:
+only what the loads add is computed, because printed axle loads need not follow from a printed geometry.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from yawdamp_ros.vehicle.model import STANDARD_GRAVITY
+
+Number = Any
+"""A float, or an array that holds one for each vehicle of a stack: the formulas are the same."""
+
+
+class LoadedUnit(NamedTuple):
+    """What loads make of a unit.
+
+    Attributes
+    ----------
+    mass : float
+        In kg.
+    yaw_inertia : float
+        About the loaded unit's centre of gravity, in kg m^2.
+    shift : float
+        Of the centre of gravity, forward positive, in m.
+    """
+
+    mass: Number
+    yaw_inertia: Number
+    shift: Number
+
+
+def loaded(unit: dict[str, Any]) -> LoadedUnit:
+    """Mass, inertia and centre of gravity of a unit of a vehicle file with its loads."""
+    parts = [
+        (unit["mass"], 0.0, unit["yaw_inertia"]),
+        *((load["mass"], load["position"], load.get("yaw_inertia", 0.0)) for load in unit.get("load", ())),
+    ]
+    mass = sum(mass for mass, _, _ in parts)
+    shift = sum(mass * position for mass, position, _ in parts) / mass
+    inertia = sum(own + mass * (position - shift) ** 2 for mass, position, own in parts)
+    return LoadedUnit(mass, inertia, shift)
+
+
+def added_axle_loads(units: Sequence[dict[str, Any]]) -> list[list[Number]]:
+    """What the loads of a vehicle file add to the load of every axle.
+
+    Parameters
+    ----------
+    units : sequence of dict
+        Of the file, foremost first, with the hitches that they need.
+
+    Returns
+    -------
+    list of list of float
+        In N, of each axle of each unit; negative where a load relieves an axle.
+    """
+    added: list[list[Number]] = []
+    # What the unit behind puts on this one's rear hitch.
+    weight: Number = 0.0
+    for index in reversed(range(len(units))):
+        unit = units[index]
+        forces = [(STANDARD_GRAVITY * load["mass"], load["position"]) for load in unit.get("load", ())]
+        if "rear_hitch" in unit:
+            forces.append((weight, unit["rear_hitch"]))
+        front, rear = _supports(unit, towed=index > 0)
+        ahead = unit["front_hitch"] if index else _centre(unit, front)
+        behind = _centre(unit, rear)
+        total = sum(force for force, _ in forces)
+        on_rear = sum(force * (ahead - position) for force, position in forces) / (ahead - behind)
+        weight = total - on_rear
+        added.insert(
+            0,
+            [
+                weight / len(front) if axle in front else on_rear / len(rear)
+                for axle in range(len(unit["axles"]))
+            ],
+        )
+    return added
+
+
+def _supports(unit: dict[str, Any], *, towed: bool) -> tuple[list[int], list[int]]:
+    """Axles of the two groups that a unit rests on; a towed one has its hitch in place of the first."""
+    everything = list(range(len(unit["axles"])))
+    if towed:
+        return [], everything
+    steered = [index for index in everything if unit["axles"][index].get("steered", False)]
+    return steered, [index for index in everything if index not in steered]
+
+
+def _centre(unit: dict[str, Any], group: Sequence[int]) -> Number:
+    return sum(unit["axles"][index]["position"] for index in group) / len(group)
