@@ -30,21 +30,26 @@ def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]
     Console(width=None if sys.stdout.isatty() else PIPE_WIDTH).print(table)
 
 
-class _Seconds(ProgressColumn):
-    """Simulated time done and, where it is known, in all."""
+class _Done(ProgressColumn):
+    """How much is done and, where it is known, of how much."""
+
+    def __init__(self, unit: str) -> None:
+        super().__init__()
+        self._unit = unit
+        self._digits = 1 if unit == "s" else 0
 
     def render(self, task: Task) -> Text:
-        total = "" if task.total is None else f" / {task.total:.1f}"
-        return Text(f"{task.completed:.1f}{total} s")
+        total = "" if task.total is None else f" / {task.total:.{self._digits}f}"
+        return Text(f"{task.completed:.{self._digits}f}{total} {self._unit}")
 
 
-def progress_bar() -> Progress:
+def progress_bar(unit: str = "s") -> Progress:
     """A progress bar on standard error; silent where that is no terminal."""
     console = Console(stderr=True)
     return Progress(
         TextColumn("{task.description}"),
         BarColumn(),
-        _Seconds(),
+        _Done(unit),
         TimeElapsedColumn(),
         TimeRemainingColumn(),
         console=console,

@@ -17,6 +17,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "resimulate": "run a recorded run again and say whether it is bit-identical",
         "stability": "modes, damping, understeer gradient, critical speed; root locus, Bode, Nyquist",
         "assess": "rearward amplification, yaw damping, offtracking against the levels of the field",
+        "sweep": "a measure over ranges of parameters: curve, stability map, random vehicles",
         "plot": "the curves of a run, or of several compared, as a picture",
         "urdf": "a vehicle as URDF, for robot_state_publisher",
     }

@@ -19,6 +19,7 @@ from yawdamp_ros.analysis import (
     static_gains,
     steady_steering,
 )
+from yawdamp_ros.cli.boundary_text import boundary_record, boundary_text
 from yawdamp_ros.cli.console import print_table
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
@@ -79,7 +80,7 @@ def print_json(answer: Stability, function: TransferFunction | None) -> None:
         "understeer_gradient": answer.steering.understeer_gradient,
         "equivalent_wheelbase": answer.steering.equivalent_wheelbase,
         "critical_speed": critical_speed(answer.boundaries),
-        "stability_boundaries": _boundaries(answer.boundaries),
+        "stability_boundaries": [boundary_record(each) for each in answer.boundaries],
         "searched_speeds": SPEEDS,
         "static_gains": answer.static_gains,
     }
@@ -146,7 +147,7 @@ def print_locus_json(first: LinearModel, keys: Sequence[str], locus: Locus) -> N
         "keys": keys,
         "values": locus.values.tolist(),
         "eigenvalues": [[_pair(complex(value)) for value in row] for row in locus.eigenvalues],
-        "stability_boundaries": _boundaries(locus.boundaries),
+        "stability_boundaries": [boundary_record(each) for each in locus.boundaries],
     }
     print(json.dumps(report, indent=2))
 
@@ -173,7 +174,7 @@ def print_locus_text(first: LinearModel, keys: Sequence[str], locus: Locus) -> N
         always = "unstable" if locus.eigenvalues[0, -1].real > 0.0 else "stable"
         print(f"{always} all the way from {lowest:.6g} to {highest:.6g}")
     for boundary in locus.boundaries:
-        print(_boundary(boundary, ""))
+        print(boundary_text(boundary, ""))
 
 
 def _print_transfer_function(function: TransferFunction) -> None:
@@ -189,31 +190,9 @@ def _critical_speed(answer: Stability) -> str:
     searched = f"from {lowest:g} to {highest:g} m/s"
     if not answer.boundaries:
         return f"none: {'stable' if answer.stable else 'unstable'} at every speed {searched}"
-    sentences = "; ".join(_boundary(boundary, " m/s") for boundary in answer.boundaries)
+    sentences = "; ".join(boundary_text(boundary, " m/s") for boundary in answer.boundaries)
     none = "" if critical_speed(answer.boundaries) else "none reached by speeding up; "
     return f"{none}{sentences} (searched {searched})"
-
-
-def _boundary(boundary: Boundary, unit: str) -> str:
-    side = "above" if boundary.unstable_above else "below"
-    how = {
-        "monotonic": "a real root crosses",
-        "oscillatory": f"a pair crosses at {boundary.frequency:.4g} rad/s",
-        "jump": "a root jumps through infinity: the mass matrix is singular there",
-    }[boundary.kind]
-    return f"unstable {side} {boundary.value:.6g}{unit} ({how})"
-
-
-def _boundaries(boundaries: Sequence[Boundary]) -> list[dict[str, object]]:
-    return [
-        {
-            "value": boundary.value,
-            "unstable": "above" if boundary.unstable_above else "below",
-            "kind": boundary.kind,
-            "frequency": boundary.frequency,
-        }
-        for boundary in boundaries
-    ]
 
 
 def _heading(model: LinearModel) -> dict[str, object]:

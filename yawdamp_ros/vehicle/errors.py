@@ -21,3 +21,7 @@ class VehicleError(YawdampError):
         self.source = source
         self.key = key
         self.problem = problem
+
+    def __reduce__(self) -> tuple[type["VehicleError"], tuple[str, str, str]]:
+        # As raised in another process: an exception is otherwise made again from its message alone.
+        return type(self), (self.source, self.key, self.problem)

@@ -1,0 +1,185 @@
+"""A measure of many vehicles that differ in a few numbers: what a sweep computes, chunk by chunk."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.analysis.measures import MEASURES
+from yawdamp_ros.analysis.modes import ComplexArray
+from yawdamp_ros.dynamics import consistent, linear_model
+from yawdamp_ros.dynamics.errors import DynamicsError
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.vehicle import Vehicle, load_stack, unstacked
+
+STABILITY = "stability"
+STUDIED = (STABILITY, *MEASURES)
+"""What a study may ask for: stability alone, or a measure beside it."""
+
+LARGEST_REAL_PART = "largest_real_part"
+"""Column of the largest real part of the eigenvalues, in 1/s; below 0 the vehicle is stable."""
+
+_LEAST_DAMPING = "least_damping_ratio"
+_STACKED_CHUNK, _SINGLE_CHUNK = 25_000, 50
+
+
+@dataclass(frozen=True)
+class Study:
+    """What is asked of every point; it can be sent to another process or machine as it is.
+
+    Attributes
+    ----------
+    text : str
+        Of the vehicle file.
+    source : str
+        What errors call it.
+    overrides : tuple of str
+        Applied before the point's values.
+    model : str
+        One of `yawdamp_ros.dynamics.MODELS`.
+    keys : tuple of tuple of str
+        For every coordinate of a point the keys that take its value.
+    measure : str
+        One of `STUDIED`.
+    """
+
+    text: str
+    source: str
+    overrides: tuple[str, ...]
+    model: str
+    keys: tuple[tuple[str, ...], ...]
+    measure: str = STABILITY
+
+    def __post_init__(self) -> None:
+        if self.measure not in STUDIED:
+            message = f"measure: {self.measure!r}: expected one of {', '.join(STUDIED)}"
+            raise AnalysisError(message)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of what `evaluate` gives."""
+        return (LARGEST_REAL_PART,) if self.measure == STABILITY else (LARGEST_REAL_PART, self.measure)
+
+    @property
+    def chunk(self) -> int:
+        """Points that are worth a message to another process."""
+        return _STACKED_CHUNK if self.measure in {STABILITY, _LEAST_DAMPING} else _SINGLE_CHUNK
+
+    def check(self, points: FloatArray) -> None:
+        """Refuse points that are no valid vehicles, before any work is done.
+
+        Raises
+        ------
+        VehicleError, DynamicsError
+            As `eigenvalues`.
+        """
+        self._stack(points)
+        self.eigenvalues(points[:1])
+
+    def eigenvalues(self, points: FloatArray) -> ComplexArray:
+        """Eigenvalues at many points, by one call for all of them.
+
+        Parameters
+        ----------
+        points : ndarray, shape (k, d)
+
+        Returns
+        -------
+        ndarray of complex, shape (k, 2 n)
+            In 1/s.
+
+        Raises
+        ------
+        VehicleError, DynamicsError
+            If any point is no valid vehicle, or there is no such model of it.
+        """
+        return self._eigenvalues(self._stack(points), len(points))
+
+    def evaluate(self, points: FloatArray) -> FloatArray:
+        """Answers at many points.
+
+        Parameters
+        ----------
+        points : ndarray, shape (k, d)
+
+        Returns
+        -------
+        ndarray, shape (k, len(columns))
+            NaN where a measure has no value.
+
+        Raises
+        ------
+        VehicleError, DynamicsError
+            As `eigenvalues`.
+        """
+        stack = self._stack(points)
+        eigenvalues = self._eigenvalues(stack, len(points))
+        found = [eigenvalues.real.max(axis=1)]
+        if self.measure == _LEAST_DAMPING:
+            found.append((-eigenvalues.real / np.abs(eigenvalues)).min(axis=1))
+        elif self.measure != STABILITY:
+            found.append(np.array([self._measured(unstacked(stack, i)) for i in range(len(points))]))
+        return np.column_stack(found)
+
+    def _stack(self, points: FloatArray) -> Vehicle:
+        values = {key: column for keys, column in zip(self.keys, points.T, strict=True) for key in keys}
+        return load_stack(self.text, self.source, self.overrides, values)
+
+    def _eigenvalues(self, stack: Vehicle, count: int) -> ComplexArray:
+        if np.any(np.asarray(stack.speed) <= 0.0):
+            message = "speed: expected speeds in m/s above 0"
+            raise DynamicsError(message)
+        if self.model == "consistent":
+            matrices, _ = consistent.state_space(stack, stack.speed)
+        else:
+            models = (linear_model(unstacked(stack, i), model=self.model) for i in range(count))
+            matrices = np.array([model.state_matrix for model in models])
+        found = np.linalg.eigvals(np.broadcast_to(matrices, (count, *matrices.shape[-2:])))
+        return np.asarray(found, dtype=np.complex128)
+
+    def _measured(self, vehicle: Vehicle) -> float:
+        measure = MEASURES[self.measure]
+        speed_given = any("speed" in keys for keys in self.keys) or any(
+            override.startswith("speed=") for override in self.overrides
+        )
+        speed = vehicle.speed if speed_given else measure.speed or vehicle.speed
+        try:
+            value = measure.value(linear_model(vehicle, speed, self.model))
+        except AnalysisError:
+            return np.nan
+        return np.nan if value is None else value
+
+
+def evaluate_all(
+    study: Study,
+    points: FloatArray,
+    mapped: Callable[[Callable[[FloatArray], FloatArray], Iterable[FloatArray]], Iterable[Any]] = map,
+) -> Iterator[FloatArray]:
+    """Answers at many points, chunk by chunk and in order.
+
+    Parameters
+    ----------
+    study : Study
+    points : ndarray, shape (k, d)
+    mapped : callable
+        Applies a function to every chunk: ``map``, or that method of an executor of `concurrent.futures`.
+
+    Yields
+    ------
+    ndarray, shape (chunk, len(study.columns))
+    """
+    chunks = [points[start : start + study.chunk] for start in range(0, len(points), study.chunk)]
+    yield from mapped(study.evaluate, chunks)
+
+
+def grid(axes: Sequence[Sequence[float]]) -> FloatArray:
+    """Every combination of the values of some axes, the last varying fastest, shape (k, d)."""
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
+
+
+def draw(spans: Sequence[tuple[float, float]], count: int, seed: int) -> FloatArray:
+    """Points drawn evenly and independently from ranges, the same for the same seed, shape (count, d)."""
+    lows, highs = np.array(spans).T
+    return np.random.default_rng(seed).uniform(lows, highs, (count, len(spans)))

@@ -1,0 +1,224 @@
+"""`sweep`: a measure over ranges of parameters."""
+
+import argparse
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import asdict
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from yawdamp_ros.analysis import Variation, find_boundaries, parse_variation
+from yawdamp_ros.analysis.boundaries import Boundary
+from yawdamp_ros.analysis.stability_map import boundary_segments
+from yawdamp_ros.analysis.study import STABILITY, STUDIED, Study, draw, evaluate_all, grid
+from yawdamp_ros.cli import sweep_report
+from yawdamp_ros.cli.console import progress_bar
+from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.executors import mapping
+from yawdamp_ros.cli.options import (
+    DEFAULT_MODEL,
+    DEFAULT_VEHICLE,
+    Parser,
+    add_format_option,
+    add_vehicle_options,
+    overrides,
+)
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.logs.sweep_csv import SweepCsv
+from yawdamp_ros.nodes.stop_request import StopRequest
+from yawdamp_ros.vehicle import vehicle_text
+
+MOST_AXES = 2
+
+
+class Plan(NamedTuple):
+    """What a command line asks for."""
+
+    study: Study
+    points: FloatArray
+    definition: dict[str, object]
+    axes: tuple[Variation, ...]
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run the command."""
+    options = _parser().parse_args(argv)
+    _check(options)
+    plan = _plan(options)
+    columns = [",".join(keys) for keys in plan.study.keys] + list(plan.study.columns)
+    answers = _run(plan, columns, options)
+    swept = sweep_report.Sweep(plan.study, plan.axes, plan.points, answers, tuple(columns))
+    boundaries = _boundaries(plan, answers) if len(plan.axes) == 1 else ()
+    segments = (
+        boundary_segments(plan.study, *(np.array(axis.values) for axis in plan.axes))
+        if len(plan.axes) == MOST_AXES
+        else np.empty((0, 2, 2))
+    )
+    if options.plot:
+        # Here and not above: matplotlib takes longer to load than most sweeps take to run.
+        from yawdamp_ros.pictures import save  # noqa: PLC0415
+        from yawdamp_ros.pictures.sweeps import curve_figure, histogram_figure, map_figure  # noqa: PLC0415
+
+        column, name = answers[:, -1], plan.study.columns[-1]
+        if not plan.axes:
+            figure = histogram_figure(column, name)
+        elif len(plan.axes) == 1:
+            figure = curve_figure(plan.axes[0], column, name, boundaries)
+        else:
+            figure = map_figure(plan.axes, column, name, segments)
+        save(figure, options.plot)
+    if options.format == "json":
+        sweep_report.print_json(swept, boundaries, segments)
+    else:
+        sweep_report.print_text(swept, boundaries, segments)
+    return 0
+
+
+def _run(plan: Plan, columns: Sequence[str], options: argparse.Namespace) -> FloatArray:
+    study, points = plan.study, plan.points
+    study.check(points)
+    with ExitStack() as opened:
+        gathered = [np.empty((0, len(study.columns)))]
+        sink = None
+        if options.output:
+            sink = opened.enter_context(SweepCsv(Path(options.output), plan.definition, points, columns))
+            gathered = [sink.answers]
+        done = len(gathered[0])
+        stop = opened.enter_context(StopRequest())
+        bar = opened.enter_context(progress_bar("points"))
+        task = bar.add_task("sweeping", total=len(points), completed=done)
+        chunks = -(-(len(points) - done) // study.chunk)
+        mapped = opened.enter_context(mapping(chunks, options.jobs, options.scheduler))
+        for answers in evaluate_all(study, points[done:], mapped):
+            gathered.append(answers)
+            if sink:
+                sink.write(answers)
+            bar.advance(task, len(answers))
+            if stop.requested:
+                raise KeyboardInterrupt
+    return np.concatenate(gathered)
+
+
+def _plan(options: argparse.Namespace) -> Plan:
+    vehicle = options.vehicle or DEFAULT_VEHICLE
+    axes = tuple(map(parse_variation, options.vary))
+    spans = [_parse_span(text) for text in options.range]
+    keys = tuple(axis.keys for axis in axes) or tuple(keys for keys, _ in spans)
+    if len({key for each in keys for key in each}) < sum(map(len, keys)):
+        message = f"{' and '.join(','.join(each) for each in keys)}: expected every key once"
+        raise UsageError(message)
+    study = Study(
+        text=vehicle_text(vehicle),
+        source=vehicle,
+        overrides=tuple(overrides(options)),
+        model=options.model or DEFAULT_MODEL,
+        keys=keys,
+        measure=options.measure,
+    )
+    if axes:
+        points = grid([axis.values for axis in axes])
+        drawn: dict[str, object] = {"vary": options.vary}
+    else:
+        points = draw([span for _, span in spans], options.random, options.seed)
+        drawn = {"range": options.range, "random": options.random, "seed": options.seed}
+    return Plan(study, points, {**asdict(study), **drawn}, axes)
+
+
+def _boundaries(plan: Plan, answers: FloatArray) -> tuple[Boundary, ...]:
+    """Boundaries of stability along one axis, refined between the points."""
+
+    def eigenvalue(value: float) -> complex:
+        (eigenvalues,) = plan.study.eigenvalues(np.array([[value]]))
+        rightmost = eigenvalues[np.argmax(eigenvalues.real)]
+        return complex(rightmost.real, abs(rightmost.imag))
+
+    scan = [(float(value), complex(real)) for (value,), real in zip(plan.points, answers[:, 0], strict=True)]
+    return find_boundaries(eigenvalue, scan)
+
+
+def _parse_span(text: str) -> tuple[tuple[str, ...], tuple[float, float]]:
+    key, separator, span = text.partition("=")
+    try:
+        low, high = map(float, span.split(":"))
+    except ValueError:
+        separator = ""
+    if not (separator and key and np.isfinite(high - low) and low < high):
+        message = f"--range: {text}: expected KEY=A:B, A below B, as in units.2.mass=5000:30000"
+        raise UsageError(message)
+    return tuple(key.split(",")), (low, high)
+
+
+def _check(options: argparse.Namespace) -> None:
+    """Refuse options that do not go together before anything is computed."""
+    drawn = options.random is not None
+    wrong = {
+        "expected either --vary KEY=A:B:N, once or twice, or --random N with --range KEY=A:B": bool(
+            options.vary
+        )
+        == drawn,
+        f"--vary: {len(options.vary)} times; expected once or twice": len(options.vary) > MOST_AXES,
+        "--range: it goes with --random; --vary has its own range": options.vary and options.range,
+        "--random: expected at least one --range KEY=A:B": drawn and not options.range,
+        f"--random: {options.random}: expected a whole number, 1 or more": drawn and options.random < 1,
+        f"--seed: {options.seed}: expected a whole number, 0 or more": options.seed < 0,
+        f"--jobs: {options.jobs}: expected a whole number, 1 or more": options.jobs is not None
+        and options.jobs < 1,
+        f"--output: {options.output}: expected a name ending in .csv": _named_otherwise(
+            options.output, ".csv"
+        ),
+        f"--plot: {options.plot}: expected a name ending in .png or .svg": _named_otherwise(
+            options.plot, ".png", ".svg"
+        ),
+    }
+    for message, is_so in wrong.items():
+        if is_so:
+            raise UsageError(message)
+
+
+def _named_otherwise(path: str | None, *suffixes: str) -> bool:
+    return path is not None and Path(path).suffix.lower() not in suffixes
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(
+        "sweep",
+        "A measure over ranges of one or two parameters, or of vehicles drawn at random from ranges, and\n"
+        "stability beside it. Unless the speed is given or varied a measure is taken at its standard's.\n"
+        "Exit status: 0, 2 for wrong use.",
+        "python -m yawdamp_ros sweep --vary speed=10:40:31 --vary units.2.mass=5000:40000:36 --plot map.png\n"
+        "  python -m yawdamp_ros sweep --random 100000 --range units.1.mass=4000:36000 --output drawn.csv",
+    )
+    add_vehicle_options(parser)
+    add_format_option(parser)
+    group = parser.add_argument_group("what varies")
+    group.add_argument(
+        "--vary",
+        action="append",
+        default=[],
+        metavar="KEY=A:B:N",
+        help="N values from A to B; once: a curve, twice: a map; keys separated by commas vary together",
+    )
+    group.add_argument("--random", type=int, metavar="N", help="draw N vehicles, evenly from every --range")
+    group.add_argument(
+        "--range", action="append", default=[], metavar="KEY=A:B", help="range of a key; may be repeated"
+    )
+    group.add_argument("--seed", type=int, default=0, help="the same seed draws the same (default: 0)")
+    group = parser.add_argument_group("what is computed")
+    group.add_argument("--measure", choices=STUDIED, default=STABILITY, metavar="M", help=", ".join(STUDIED))
+    group.add_argument(
+        "--output",
+        metavar="FILE.csv",
+        help="a row a point, written as they come. Interrupted, the same command goes on from it: "
+        "FILE.csv.json says which sweep it holds, and a file of another one is refused",
+    )
+    group.add_argument(
+        "--plot", metavar="FILE", help="curve, map or histogram as PNG or SVG, by the file's name"
+    )
+    group = parser.add_argument_group("where")
+    group.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core)")
+    group.add_argument(
+        "--scheduler", metavar="tcp://HOST:PORT", help="workers of a dask.distributed scheduler"
+    )
+    return parser
