@@ -25,6 +25,11 @@ def main(argv: Sequence[str]) -> int:
     vehicle = chosen_vehicle(options)
     model = options.model or DEFAULT_MODEL
     findings = assess(vehicle, model, options.speed, options.srt)
+    if options.html:
+        # Here and not above: what the page needs takes longer to load than most assessments to run.
+        from yawdamp_ros.pictures.assessment_page import assessment_page, save_page  # noqa: PLC0415
+
+        save_page(assessment_page(vehicle, model, findings), options.html)
     if options.format == "json":
         print(json.dumps([_record(finding) for finding in findings], indent=2))
     else:
@@ -43,6 +48,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     add_vehicle_options(parser)
     add_format_option(parser)
+    parser.add_argument(
+        "--html",
+        metavar="FILE",
+        help="also write one page for a browser: table, curves, animated plan view, mode shapes, definitions",
+    )
     parser.add_argument(
         "--srt",
         type=float,
