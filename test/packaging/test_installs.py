@@ -125,6 +125,11 @@ def test_data_files_are_found_without_an_ament_index(prefix: Path, tmp_path: Pat
         assert (share / name).is_file(), name
 
 
+def test_page_of_an_assessment_is_installed(prefix: Path) -> None:
+    (page,) = Path(python_path(prefix)).glob("yawdamp_ros/pictures/*.html")
+    assert page.name == "assessment.html"
+
+
 def test_colcon_puts_its_environment_hooks_in_place(colcon_prefix: Path) -> None:
     # A package.xml that colcon cannot read is built all the same, but without these.
     assert (colcon_prefix / "share/yawdamp_ros/hook/ament_prefix_path.sh").is_file()
