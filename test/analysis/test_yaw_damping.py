@@ -103,7 +103,7 @@ def test_decay_is_what_the_simulator_does_after_a_pulse() -> None:
     np.testing.assert_allclose(pulse_decay(model)[:500], rates, atol=0.01 * np.abs(rates).max())
 
 
-def test_singular_speed_is_no_obstacle() -> None:
+def test_crawling_vehicle_does_not_swing() -> None:
     model = linear_model(load_vehicle("truck_trailer"), 0.5)
     with pytest.raises(AnalysisError, match="does not swing"):
         yaw_damping_coefficient(pulse_decay(model))

@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 
 from yawdamp_ros import linear_model, load_vehicle
@@ -141,6 +142,33 @@ def test_interrupted_sweep_goes_on_from_its_file(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
     assert output.read_text().startswith(written)
     assert len(rows(output)) == 1000
+
+
+def test_worker_that_ends_is_one_line_and_leaves_what_is_written(tmp_path: Path) -> None:
+    output = tmp_path / "long.csv"
+    command = [
+        *(sys.executable, "-m", "yawdamp_ros", "sweep", "--random", "2000", "--jobs", "2"),
+        *(
+            "--range",
+            "units.1.mass=5000:30000",
+            "--measure",
+            "rearward_amplification",
+            "--output",
+            str(output),
+        ),
+    ]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        while not (output.exists() and output.read_text().count("\n") > 1):
+            assert process.poll() is None
+            time.sleep(0.02)
+        children = psutil.Process(process.pid).children()
+        next(child for child in children if "spawn_main" in " ".join(child.cmdline())).kill()
+        _, errors = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert errors == (
+        "yawdamp_ros sweep: a worker process ended before its work did; what is written stands\n"
+    )
+    assert len(rows(output)) >= 50
 
 
 def test_a_finished_sweep_is_read_from_its_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
