@@ -44,6 +44,7 @@ class Graph:
         self.directory = directory
         self.received: dict[str, list[bytes]] = defaultdict(list)
         self._types: dict[str, type] = {}
+        self._clients: dict[str, Any] = {}
         self._processes: list[subprocess.Popen[str]] = []
         self._domain = next(_DOMAINS)
         self.environment = {
@@ -114,9 +115,13 @@ class Graph:
 
     def call(self, service: str, kind: Any, request: Any) -> Any:  # noqa: ANN401 - generated messages
         """Call a service and return its answer."""
-        client = self.node.create_client(kind, service)
-        until(client.service_is_ready, service)
-        future = client.call_async(request)
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(kind, service)
+            until(self._clients[service].service_is_ready, service)
+            # This side knows the service now, but the service need not know where to answer to yet: an
+            # answer that comes too early is lost, in any ROS 2 over DDS.
+            time.sleep(0.3)
+        future = self._clients[service].call_async(request)
         until(future.done, f"an answer of {service}")
         return future.result()
 

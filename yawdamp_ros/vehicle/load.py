@@ -78,11 +78,9 @@ def vehicle_text(vehicle: str | Path) -> str:
     VehicleError
         If there is no such file, or it cannot be read.
     """
-    source = str(vehicle)
+    source = str(vehicle) or "''"  # an empty path would be the working directory
     builtins = builtin_vehicles()
-    if not source:
-        raise VehicleError("''", "", f"no such vehicle; expected a file or one of {', '.join(builtins)}")
-    path = _builtin_directory() / f"{source}.yaml" if source in builtins else Path(vehicle)
+    path = _builtin_directory() / f"{source}.yaml" if source in builtins else Path(source)
     try:
         return path.read_text(encoding="utf-8")
     except FileNotFoundError as error:
