@@ -125,7 +125,7 @@ def test_overrides_and_speed_reach_the_model(tmp_path: Path, capsys: pytest.Capt
         (["--manoeuvre", "step", "--degrees"], "--degrees: there is no --log that it could be of"),
         (
             ["--manoeuvre", "step", "--speed", "1e-300"],
-            "speed: 1e-300: expected a speed in m/s, from 0.1 to 70",
+            "speed: 1e-300: expected a speed in m/s, from 0.01 to 70",
         ),
         (["--log", "a.csv", "--output", "./a.csv"], "--output: ./a.csv: that is the log"),
         (["--manoeuvre", "step", "--unknown"], "unrecognized arguments: --unknown"),

@@ -26,7 +26,7 @@ def test_lateral_acceleration_is_the_change_of_lateral_velocity_and_the_turn(veh
 
 @pytest.mark.parametrize("speed", [0.0, 1e-300, -1.0, float("nan"), float("inf")])
 def test_a_speed_that_is_none_is_refused(speed: float) -> None:
-    with pytest.raises(DynamicsError, match=r"speed: .*: expected a speed of at least 0.1 m/s"):
+    with pytest.raises(DynamicsError, match=r"speed: .*: expected a speed of at least 0.01 m/s"):
         linear_model(load_vehicle("interlink"), speed)
 
 

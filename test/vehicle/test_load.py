@@ -70,7 +70,7 @@ def test_overrides_change_one_value_each() -> None:
         ("units.0.axles.0.steered=false", "units.0.axles: no axle of the lead unit is steered"),
         ("units.0.axles=[]", "units.0.axles: []: expected a list of at least one axle"),
         ("units=[]", "units: []: expected a list of at least one unit"),
-        ("speed=80", "speed: 80: expected a speed in m/s, from 0.1 to 70 (80 km/h is 22.2222)"),
+        ("speed=80", "speed: 80: expected a speed in m/s, from 0.01 to 70 (80 km/h is 22.2222)"),
         ("speed=0", "speed: 0: expected a speed"),
         ("units.7.mass=1.0", "units.7.mass: no such key to set"),
         ("units.x.mass=1.0", "units.x.mass: no such key to set"),

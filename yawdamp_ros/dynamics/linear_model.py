@@ -17,7 +17,7 @@ MODELS: Mapping[str, Callable[[Vehicle, float], tuple[FloatArray, FloatArray]]] 
 )
 """The models of a vehicle, each a function from vehicle and speed to state and input matrix."""
 
-LOWEST_SPEED = 0.1
+LOWEST_SPEED = 0.01
 """In m/s. A slip angle is a lateral velocity over the speed, which grows without bound towards standstill."""
 
 
