@@ -24,6 +24,8 @@ from std_msgs.msg import Float64
 
 PATIENCE = 30.0
 """Seconds after which a process is taken to hang; nothing is expected to come near it."""
+SETTLING = 0.3
+"""Seconds from one side's finding the other to the reverse: what is sent before is lost."""
 _WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
 _DOMAINS = itertools.cycle(range(1 + 20 * (_WORKER % 5), 21 + 20 * (_WORKER % 5)))
 """Of this worker alone, so that tests side by side do not hear each other."""
@@ -88,6 +90,7 @@ class Graph:
         """A publisher that somebody listens to."""
         publisher = self.node.create_publisher(kind, topic, 10)
         until(lambda: publisher.get_subscription_count() > 0, f"a subscriber of {topic}")
+        time.sleep(SETTLING)
         return publisher
 
     def steering_publisher(self, topic: str = "/steering") -> Any:  # noqa: ANN401
@@ -118,9 +121,7 @@ class Graph:
         if service not in self._clients:
             self._clients[service] = self.node.create_client(kind, service)
             until(self._clients[service].service_is_ready, service)
-            # This side knows the service now, but the service need not know where to answer to yet: an
-            # answer that comes too early is lost, in any ROS 2 over DDS.
-            time.sleep(0.3)
+            time.sleep(SETTLING)
         future = self._clients[service].call_async(request)
         until(future.done, f"an answer of {service}")
         return future.result()

@@ -18,6 +18,8 @@ from yawdamp_ros.stepping.time_grid import nanoseconds
 QUEUE_DEPTH = 10
 POLL = 0.02
 """Seconds between looks for a subscriber, a pause or its end."""
+SETTLING = 0.3
+"""Seconds from the sight of a subscriber to the first sample."""
 
 
 class ReplayNode(Node):
@@ -60,7 +62,8 @@ class ReplayNode(Node):
         while self._publisher.get_subscription_count() == 0:
             if self._stop.wait(POLL):
                 return False
-        return True
+        # This side has found the subscriber, but that need not have found this side yet.
+        return not self._stop.wait(SETTLING)
 
     def play(self, progress: Callable[[float], None], *, loop: bool) -> None:
         """Publish the log, once or again and again, until it ends or the stop request comes.
