@@ -55,7 +55,7 @@ setup(
         "cluster": ["distributed>=2024.5"],  # sweeps on other machines
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.
-        "test": ["pytest>=8,<9", "pytest-timeout", "pytest-xdist", "hypothesis", "rosbags"],
+        "test": ["pytest>=8,<9", "pytest-timeout", "pytest-xdist", "hypothesis", "psutil", "rosbags"],
         "lint": ["ruff", "mypy", "import-linter"],
         "colcon": ["colcon-core", "colcon-ros"],
     },

@@ -5,6 +5,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -116,23 +118,26 @@ def test_cluster_gives_what_one_process_gives(tmp_path: Path) -> None:
     np.testing.assert_allclose(rows(tmp_path / "there.csv"), rows(tmp_path / "here.csv"), rtol=1e-12)
 
 
-def test_interrupted_sweep_goes_on_from_its_file(tmp_path: Path) -> None:
-    output = tmp_path / "long.csv"
-    command = [
-        *(sys.executable, "-m", "yawdamp_ros", "sweep", "--random", "1000", "--jobs", "2"),
-        *(
-            "--range",
-            "units.1.mass=5000:30000",
-            "--measure",
-            "rearward_amplification",
-            "--output",
-            str(output),
-        ),
-    ]
+def long_sweep(points: int, output: Path) -> list[str]:
+    options = ["--range", "units.1.mass=5000:30000", "--measure", "rearward_amplification", "--jobs", "2"]
+    command = [sys.executable, "-m", "yawdamp_ros", "sweep", "--random", str(points), *options]
+    return [*command, "--output", str(output)]
+
+
+@contextmanager
+def under_way(command: list[str], output: Path) -> Iterator[subprocess.Popen[str]]:
+    """A sweep that has written its first rows."""
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         while not (output.exists() and output.read_text().count("\n") > 1):
             assert process.poll() is None
             time.sleep(0.02)
+        yield process
+
+
+def test_interrupted_sweep_goes_on_from_its_file(tmp_path: Path) -> None:
+    output = tmp_path / "long.csv"
+    command = long_sweep(1000, output)
+    with under_way(command, output) as process:
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
     assert (process.returncode, errors) == (130, "yawdamp_ros sweep: interrupted\n")
@@ -146,21 +151,8 @@ def test_interrupted_sweep_goes_on_from_its_file(tmp_path: Path) -> None:
 
 def test_worker_that_ends_is_one_line_and_leaves_what_is_written(tmp_path: Path) -> None:
     output = tmp_path / "long.csv"
-    command = [
-        *(sys.executable, "-m", "yawdamp_ros", "sweep", "--random", "2000", "--jobs", "2"),
-        *(
-            "--range",
-            "units.1.mass=5000:30000",
-            "--measure",
-            "rearward_amplification",
-            "--output",
-            str(output),
-        ),
-    ]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        while not (output.exists() and output.read_text().count("\n") > 1):
-            assert process.poll() is None
-            time.sleep(0.02)
+    command = long_sweep(2000, output)
+    with under_way(command, output) as process:
         children = psutil.Process(process.pid).children()
         next(child for child in children if "spawn_main" in " ".join(child.cmdline())).kill()
         _, errors = process.communicate(timeout=60)
