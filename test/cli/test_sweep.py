@@ -163,6 +163,15 @@ def test_worker_that_ends_is_one_line_and_leaves_what_is_written(tmp_path: Path)
     assert len(rows(output)) >= 50
 
 
+def test_a_killed_sweep_leaves_no_worker_behind(tmp_path: Path) -> None:
+    output = tmp_path / "long.csv"
+    with under_way(long_sweep(2000, output), output) as process:
+        workers = psutil.Process(process.pid).children()
+        process.kill()
+    _, alive = psutil.wait_procs(workers, timeout=60)
+    assert alive == []
+
+
 def test_a_finished_sweep_is_read_from_its_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["--vary", "speed=10:30:3", "--measure", "yaw_damping_coefficient"]
     output = tmp_path / "speeds.csv"

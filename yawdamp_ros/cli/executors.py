@@ -2,10 +2,11 @@
 
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, CancelledError, ProcessPoolExecutor
 from contextlib import contextmanager
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from typing import Any
 
 from yawdamp_ros.cli.errors import UsageError
@@ -52,9 +53,7 @@ def mapping(chunks: int, jobs: int | None, scheduler: str | None) -> Iterator[Ma
 @contextmanager
 def _pool(processes: int) -> Iterator[Mapped]:
     # Spawned: a fork of a process that has threads, as NumPy's BLAS does, can hang.
-    executor = ProcessPoolExecutor(
-        processes, mp_context=get_context("spawn"), initializer=_leave_signals_alone
-    )
+    executor = ProcessPoolExecutor(processes, mp_context=get_context("spawn"), initializer=_set_up_worker)
     try:
         yield executor.map
     except BrokenExecutor as error:
@@ -65,9 +64,18 @@ def _pool(processes: int) -> Iterator[Mapped]:
         executor.shutdown(wait=True, cancel_futures=True)
 
 
-def _leave_signals_alone() -> None:
-    """A terminal's Ctrl-C reaches every process: the one that writes decides when to stop."""
+def _set_up_worker() -> None:
+    # A terminal's Ctrl-C reaches every process: the one that writes decides when to stop.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """Of a parent that was killed its workers learn nothing: they would wait for work for ever."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 @contextmanager
