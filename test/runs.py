@@ -47,8 +47,14 @@ def stepped_again(steering: list[tuple[int, Any]], samples: int) -> list[Sample]
     start = steering[0][0]
     angles = {(log_time - start) // 1_000_000: message.data for log_time, message in steering}
 
-    def drive(stepper: Stepper) -> None:
-        stepper.steer(angles.get(stepper.step, stepper.steering_angle))
-
     stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
-    return [stepper.run(10 if index else 0, drive) for index in range(samples)]
+    stepper.steer(angles[0])
+    taken = [stepper.sample()]
+    held = angles[0]
+    for index in range(samples - 1):
+        ahead = []
+        for step in range(10 * index + 1, 10 * index + 11):
+            held = angles.get(step, held)
+            ahead.append(held)
+        taken.append(stepper.run(ahead))
+    return taken

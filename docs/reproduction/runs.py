@@ -73,7 +73,7 @@ def lateral_velocity(case: str) -> npt.NDArray[np.float64]:
     grid = TimeGrid.of(0.001, chosen.sample_period)
     stepper = Stepper(linear_model(load_vehicle(chosen.vehicle), chosen.speed), grid.step_size)
     samples = sample_run(stepper, grid, chosen.manoeuvre, chosen.duration)
-    return np.array([sample.lateral_velocity for sample in samples])
+    return np.vstack([sample.lateral_velocity for sample in samples])
 
 
 def last_peaks(run: Response, period: float) -> npt.NDArray[np.float64]:

@@ -27,8 +27,9 @@ def writer_in(directory: Path) -> RunWriter:
 @pytest.fixture
 def run(tmp_path: Path) -> Path:
     writer = writer_in(tmp_path / "run")
-    for index in range(1000):
-        writer.write(index % 2, 5_000_000_000 + index * 1_000_000, ONE)
+    messages = [(index % 2, 5_000_000_000 + index * 1_000_000, ONE) for index in range(1000)]
+    for begin in range(0, 1000, 50):
+        writer.write(messages[begin : begin + 50])
     writer.close()
     return tmp_path / "run"
 
@@ -101,8 +102,7 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
 
 def test_what_was_flushed_survives_a_kill(tmp_path: Path) -> None:
     writer = writer_in(tmp_path / "run")
-    for index in range(100):
-        writer.write(0, index, ONE)
+    writer.write([(0, index, ONE) for index in range(100)])
     writer.flush()
     with (tmp_path / "run" / "run_0.mcap").open("rb") as file:
         records = StreamReader(file).records
@@ -139,7 +139,7 @@ def test_a_full_disk_is_counted_and_does_not_stop_whoever_writes(tmp_path: Path)
     background = BackgroundWriter(writer_in(tmp_path / "run"))
     noise = [index.to_bytes(8, "little") * 16 for index in range(20_000)]
     for index, data in enumerate(noise):
-        background.offer(0, index, data)
+        background.offer([(0, index, data)])
     background.close()
     assert background.failure is not None
     assert "cannot be recorded to" in str(background.failure)
@@ -149,7 +149,7 @@ def test_a_full_disk_is_counted_and_does_not_stop_whoever_writes(tmp_path: Path)
 def test_the_background_writer_loses_nothing_in_good_order(tmp_path: Path) -> None:
     background = BackgroundWriter(writer_in(tmp_path / "run"))
     for index in range(5000):
-        background.offer(index % 2, index, ONE)
+        background.offer([(index % 2, index, ONE)])
     background.close()
     assert (background.failure, background.lost) == (None, 0)
     with AnyReader([tmp_path / "run"]) as reader:

@@ -1,5 +1,6 @@
 import math
 from collections.abc import Callable
+from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
@@ -10,13 +11,16 @@ from scipy.linalg import expm
 
 from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
-from yawdamp_ros.stepping import Stepper
+from yawdamp_ros.stepping import Sample, Stepper
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle
 
 
-def steering(angle: Callable[[int], float]) -> Callable[[Stepper], None]:
-    """Drive by a steer angle that depends on the step."""
-    return lambda stepper: stepper.steer(angle(stepper.step))
+def run(
+    stepper: Stepper, steps: int, angle: Callable[[int], float], steps_per_sample: int | None = None
+) -> Sample:
+    """Run by a steer angle that depends on the step."""
+    ahead = range(stepper.step + 1, stepper.step + 1 + steps)
+    return stepper.run([angle(step) for step in ahead], steps_per_sample)
 
 
 CAR = Vehicle(
@@ -84,7 +88,7 @@ def test_many_short_steps_are_one_long_step(vehicle: Vehicle, parts: int) -> Non
 @given(vehicles(), st.floats(-0.3, 0.3))
 def test_steering_to_the_other_side_mirrors_everything(vehicle: Vehicle, angle: float) -> None:
     left, right = (Stepper(linear_model(vehicle), 0.01) for _ in range(2))
-    one, other = left.run(30, steering(lambda _: angle)), right.run(30, steering(lambda _: -angle))
+    one, other = run(left, 30, lambda _: angle), run(right, 30, lambda _: -angle)
     for field in ("y", "yaw", "yaw_rate", "lateral_acceleration", "lateral_velocity", "articulation"):
         np.testing.assert_array_equal(getattr(one, field), -getattr(other, field))
     np.testing.assert_array_equal(one.x, other.x)
@@ -92,9 +96,7 @@ def test_steering_to_the_other_side_mirrors_everything(vehicle: Vehicle, angle: 
 
 @given(vehicles(min_units=2))
 def test_units_stay_coupled_at_their_hitches(vehicle: Vehicle) -> None:
-    sample = Stepper(linear_model(vehicle), 0.01).run(
-        100, steering(lambda step: 0.05 * math.sin(0.02 * step))
-    )
+    sample = run(Stepper(linear_model(vehicle), 0.01), 100, lambda step: 0.05 * math.sin(0.02 * step))
     ends = []
     for unit, x, y, yaw in zip(vehicle.units, sample.x, sample.y, sample.yaw, strict=True):
         ends.append(
@@ -108,7 +110,7 @@ def test_units_stay_coupled_at_their_hitches(vehicle: Vehicle) -> None:
 
 
 def test_steering_left_yaws_left_and_curves_left() -> None:
-    sample = Stepper(linear_model(load_vehicle("interlink")), 0.001).run(2000, steering(lambda _: 0.02))
+    sample = run(Stepper(linear_model(load_vehicle("interlink")), 0.001), 2000, lambda _: 0.02)
     assert (sample.yaw > 0.0).all()
     assert (sample.yaw_rate > 0.0).all()
     assert (sample.lateral_acceleration > 0.0).all()
@@ -118,41 +120,45 @@ def test_steering_left_yaws_left_and_curves_left() -> None:
 
 def test_a_steady_turn_is_a_circle_of_speed_over_yaw_rate() -> None:
     stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
-    samples = [stepper.run(1000, steering(lambda _: 0.02)) for _ in range(60)]
-    settled = samples[20:]
-    points = np.array([[sample.x[0], sample.y[0]] for sample in settled])
+    sample = run(stepper, 60_000, lambda _: 0.02, 1000)
+    points = np.column_stack([sample.x[20:, 0], sample.y[20:, 0]])
     # Centre by least squares of |p|^2 = 2 c.p + k.
     design = np.column_stack([2.0 * points, np.ones(len(points))])
     *centre, _ = np.linalg.lstsq(design, (points**2).sum(axis=1), rcond=None)[0]
     radii = np.hypot(*(points - centre).T)
-    speed_over_ground = math.hypot(settled[-1].speed, settled[-1].lateral_velocity[0])
-    np.testing.assert_allclose(radii, speed_over_ground / settled[-1].yaw_rate[0], rtol=1e-5)
+    speed_over_ground = math.hypot(sample.speed, sample.lateral_velocity[-1, 0])
+    np.testing.assert_allclose(radii, speed_over_ground / sample.yaw_rate[-1, 0], rtol=1e-5)
 
 
 def test_the_same_steering_gives_the_same_bits() -> None:
     model = linear_model(load_vehicle("interlink"))
-    runs = [
-        Stepper(model, 0.001).run(500, steering(lambda step: 0.1 * math.sin(0.0015 * step))) for _ in range(2)
-    ]
+    runs = [run(Stepper(model, 0.001), 500, lambda step: 0.1 * math.sin(0.0015 * step)) for _ in range(2)]
     for first, second in zip(*runs, strict=True):
         np.testing.assert_array_equal(first, second)
 
 
-def test_how_samples_are_spaced_does_not_change_a_bit() -> None:
-    model = linear_model(load_vehicle("interlink"))
+@given(vehicles(), st.lists(st.integers(1, 70), min_size=1, max_size=8))
+def test_how_a_run_is_cut_does_not_change_a_bit(vehicle: Vehicle, cuts: list[int]) -> None:
+    model = linear_model(vehicle)
+    whole, cut = Stepper(model, 0.001), Stepper(model, 0.001)
 
-    drive = steering(lambda step: 0.1 * math.sin(0.0015 * step))
-    every, seldom = Stepper(model, 0.001), Stepper(model, 0.001)
-    for _ in range(500):
-        last = every.run(1, drive)
-    for first, second in zip(last[:-1], seldom.run(500, drive)[:-1], strict=True):
-        np.testing.assert_array_equal(first, second)
+    def angle(step: int) -> float:
+        return 0.1 * math.sin(0.0015 * step)
+
+    every = run(whole, sum(cuts), angle, 1)
+    for steps in cuts:
+        part = run(cut, steps, angle)
+        for field in Sample._fields:
+            if field not in {"speed", "inputs"}:
+                np.testing.assert_array_equal(getattr(part, field), getattr(every, field)[cut.step - 1])
+    np.testing.assert_array_equal(whole.state, cut.state)
 
 
 def test_a_sample_holds_the_steering_in_force_from_its_instant_on() -> None:
     model = linear_model(load_vehicle("single_vehicle"))
     stepper = Stepper(model, 0.01)
-    first = stepper.run(0, steering(lambda _: 0.1))
+    stepper.steer(0.1)
+    first = stepper.sample()
     assert first.steering_angle == 0.1
     assert first.yaw_rate[0] == 0.0
     assert first.lateral_acceleration[0] == pytest.approx(0.1 * model.input_matrix[0])
@@ -160,11 +166,9 @@ def test_a_sample_holds_the_steering_in_force_from_its_instant_on() -> None:
 
 def test_inputs_are_told_with_the_step_at_which_they_took_effect() -> None:
     stepper = Stepper(linear_model(load_vehicle("single_vehicle")), 0.01)
-    angles = {0: 0.0, 1: 0.0, 2: 0.1, 3: 0.1, 4: 0.2, 5: 0.0, 6: 0.0}
-    drive = steering(angles.__getitem__)
-    assert stepper.run(0, drive).inputs == ((0, "speed", 20.0), (0, "steering", 0.0))
-    assert stepper.run(4, drive).inputs == ((2, "steering", 0.1), (4, "steering", 0.2))
-    assert stepper.run(2, drive).inputs == ((5, "steering", 0.0),)
+    assert stepper.sample().inputs == ((0, "speed", 20.0), (0, "steering", 0.0))
+    assert stepper.run([0.0, 0.1, 0.1, 0.2]).inputs == ((2, "steering", 0.1), (4, "steering", 0.2))
+    assert stepper.run([0.0, 0.0]).inputs == ((5, "steering", 0.0),)
 
 
 def test_of_two_inputs_at_one_step_only_the_last_is_told() -> None:
@@ -177,12 +181,12 @@ def test_of_two_inputs_at_one_step_only_the_last_is_told() -> None:
 def test_another_speed_is_another_model_with_the_same_state() -> None:
     vehicle = load_vehicle("interlink")
     stepper = Stepper(linear_model(vehicle), 0.001)
-    stepper.run(500, steering(lambda _: 0.05))
+    run(stepper, 500, lambda _: 0.05)
     state = stepper.state
     stepper.change_speed(15.0)
     np.testing.assert_array_equal(stepper.state, state)
-    sample = stepper.run(20_000, steering(lambda _: 0.05))
-    settled = Stepper(linear_model(vehicle, 15.0), 0.001).run(20_000, steering(lambda _: 0.05))
+    sample = run(stepper, 20_000, lambda _: 0.05)
+    settled = run(Stepper(linear_model(vehicle, 15.0), 0.001), 20_000, lambda _: 0.05)
     np.testing.assert_allclose(sample.yaw_rate, settled.yaw_rate, rtol=1e-9)
     assert sample.speed == 15.0
     assert (500, "speed", 15.0) in sample.inputs
@@ -191,12 +195,12 @@ def test_another_speed_is_another_model_with_the_same_state() -> None:
 def test_a_reset_returns_to_rest_at_the_origin_and_time_goes_on() -> None:
     model = linear_model(load_vehicle("interlink"))
     stepper = Stepper(model, 0.001)
-    stepper.run(700, steering(lambda _: 0.05))
+    run(stepper, 700, lambda _: 0.05)
     stepper.reset()
-    again = stepper.run(300, steering(lambda _: 0.05))
+    again = run(stepper, 300, lambda _: 0.05)
     fresh = Stepper(model, 0.001)
     fresh.steer(0.05)
-    anew = fresh.run(300, steering(lambda _: 0.05))
+    anew = run(fresh, 300, lambda _: 0.05)
     assert again.step == 1000
     for field in ("x", "y", "yaw", "yaw_rate", "lateral_acceleration", "articulation"):
         np.testing.assert_array_equal(getattr(again, field), getattr(anew, field))
@@ -205,41 +209,54 @@ def test_a_reset_returns_to_rest_at_the_origin_and_time_goes_on() -> None:
 def test_a_run_is_repeated_bit_for_bit_from_its_inputs_alone() -> None:
     model = linear_model(load_vehicle("interlink"))
     stepper = Stepper(model, 0.001)
-
-    def drive(stepper: Stepper) -> None:
-        stepper.steer(0.05 * math.sin(0.003 * stepper.step))
-        if stepper.step % 333 == 0:
-            stepper.change_speed(20.0 + stepper.step / 1000)
-        if stepper.step == 444:
+    first = []
+    for index in range(100):
+        stepper.advance()
+        if index % 33 == 0:
+            stepper.change_speed(20.0 + index / 100)
+        if index == 44:
             stepper.reset()
-
-    first = [stepper.run(10, drive) for _ in range(100)]
-    inputs = {}
-    for sample in first:
-        for applied in sample.inputs:
-            inputs.setdefault(applied.step, []).append(applied)
-
-    def repeat(stepper: Stepper) -> None:
-        for applied in inputs.get(stepper.step, []):
-            stepper.apply(applied)
-
+        first.append(run(stepper, 9, lambda step: 0.05 * math.sin(0.003 * step)))
     other = Stepper(model, 0.001)
+    pending = [applied for sample in first for applied in sample.inputs]
     for sample in first:
-        repeated = other.run(10, repeat)
-        for one, two in zip(sample[:-1], repeated[:-1], strict=True):
+        while pending and pending[0].step <= sample.step:
+            other.advance(pending[0].step - other.step)
+            other.apply(pending.pop(0))
+        other.advance(int(sample.step) - other.step)
+        for one, two in zip(sample, other.sample(), strict=True):
             np.testing.assert_array_equal(one, two)
 
 
 def test_from_a_snapshot_a_run_goes_on_bit_for_bit() -> None:
     model = linear_model(load_vehicle("interlink"))
     first, other = Stepper(model, 0.001), Stepper(model, 0.001)
-    drive = steering(lambda step: 0.05 * math.sin(0.003 * step))
-    first.run(500, drive)
+
+    def angle(step: int) -> float:
+        return 0.05 * math.sin(0.003 * step)
+
+    run(first, 500, angle)
     first.change_speed(19.0)
     first.sample()
     other.restore(first.snapshot())
-    for one, two in zip(first.run(500, drive), other.run(500, drive), strict=True):
+    for one, two in zip(run(first, 500, angle), run(other, 500, angle), strict=True):
         np.testing.assert_array_equal(one, two)
+
+
+def test_yaw_is_exact_after_a_million_turns() -> None:
+    model = linear_model(load_vehicle("interlink"))
+    steps, turns = 4000, 1_000_000
+    fresh, turned = Stepper(model, 0.01), Stepper(model, 0.01)
+    # A million turns and what their number as a double leaves over: 2 pi is no double.
+    start = fresh.snapshot()
+    whole = Fraction("6.283185307179586476925286766559005768394") * turns
+    yaw = float(whole)
+    turned.restore(start._replace(yaw=yaw, yaw_remainder=float(whole - Fraction(yaw)), sampled=False))
+    one, other = (run(stepper, steps, lambda _: 0.03) for stepper in (fresh, turned))
+    assert one.yaw[0] > 3.0
+    np.testing.assert_allclose(other.heading, one.heading, rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(other.x, one.x, rtol=0.0, atol=1e-10)
+    assert other.yaw[0] == float(whole + Fraction(float(one.yaw[0])))
 
 
 def test_a_changing_speed_is_followed_as_by_matrices_of_every_step() -> None:

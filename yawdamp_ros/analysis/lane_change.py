@@ -114,11 +114,10 @@ def _response(model: LinearModel, time: FloatArray, vectors: FloatArray, steerin
     yaw = np.column_stack(
         [vectors[:, 2 * units], vectors[:, 2 * units, np.newaxis] - articulation.cumsum(axis=1)]
     )
-    heading, lateral_velocity = yaw[:, 0], outputs[:, 0]
-    x_rate = model.speed * np.cos(heading) - lateral_velocity * np.sin(heading)
-    y_rate = model.speed * np.sin(heading) + lateral_velocity * np.cos(heading)
-    lead_x, lead_y = (cumulative_trapezoid(rate, dx=SAMPLE_PERIOD, initial=0.0) for rate in (x_rate, y_rate))
-    x, y = coupled_positions(model.vehicle.hitches, lead_x, lead_y, yaw)
+    heading = np.exp(1j * yaw)
+    velocity = (model.speed + 1j * outputs[:, 0]) * heading[:, 0]
+    lead = cumulative_trapezoid(velocity, dx=SAMPLE_PERIOD, initial=0.0)
+    positions = coupled_positions(model.vehicle.hitches, lead, heading)
     return Response(
         unit_names=model.vehicle.unit_names,
         time=time,
@@ -127,8 +126,8 @@ def _response(model: LinearModel, time: FloatArray, vectors: FloatArray, steerin
         yaw_rate=outputs[:, units : 2 * units],
         lateral_acceleration=outputs[:, 2 * units : 3 * units],
         articulation=articulation,
-        x=x,
-        y=y,
+        x=positions.real,
+        y=positions.imag,
     )
 
 

@@ -99,15 +99,12 @@ def steady_offtracking(model: LinearModel, radius: float = STEADY_RADIUS) -> flo
     """
     turn = steady_turn(model)
     # Turning left about the origin: where the centre of gravity moves at (u, v), it lies at (v, -u) / r.
-    ahead, aside = turn.lateral_velocity, -np.sqrt(radius**2 - turn.lateral_velocity**2)
-    yaw_rate = -model.speed / aside
-    yaw = np.concatenate([[0.0], -np.cumsum(yaw_rate * turn.articulation)])
-    x, y = coupled_positions(model.vehicle.hitches, ahead, aside, yaw)
+    lead = turn.lateral_velocity - 1j * np.sqrt(radius**2 - turn.lateral_velocity**2)
+    yaw_rate = -model.speed / lead.imag
+    heading = np.exp(-1j * np.concatenate([[0.0], np.cumsum(yaw_rate * turn.articulation)]))
+    positions = coupled_positions(model.vehicle.hitches, lead, heading)
     steer, last = steer_axle(model.vehicle).position, _last_axle(model.vehicle)
-    return float(
-        np.hypot(x[-1] + last * np.cos(yaw[-1]), y[-1] + last * np.sin(yaw[-1]))
-        - np.hypot(x[0] + steer, y[0])
-    )
+    return float(abs(positions[-1] + last * heading[-1]) - abs(positions[0] + steer))
 
 
 def _last_axle(vehicle: Vehicle) -> float:

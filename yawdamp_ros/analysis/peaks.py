@@ -18,10 +18,10 @@ class Peaks:
         self.yaw, self.yaw_rate, self.lateral_acceleration = np.zeros((3, units))
 
     def update(self, sample: Sample) -> None:
-        """Take a sample into account."""
+        """Take a sample of one or more instants into account."""
         for peak, values in (
             (self.yaw, sample.yaw),
             (self.yaw_rate, sample.yaw_rate),
             (self.lateral_acceleration, sample.lateral_acceleration),
         ):
-            np.maximum(peak, np.abs(values), out=peak)
+            np.maximum(peak, np.abs(values).reshape(-1, len(peak)).max(axis=0), out=peak)

@@ -6,8 +6,8 @@ import numpy as np
 
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.dynamics import LinearModel
-from yawdamp_ros.stepping import Response, Stepper, TimeGrid
-from yawdamp_ros.stepping.response import sample_run
+from yawdamp_ros.stepping import Response, TimeGrid
+from yawdamp_ros.stepping.response import respond
 
 TOLERANCE = 1e-12
 """Relative to the largest magnitude of a quantity; what is promised where bit-identity is not."""
@@ -58,13 +58,10 @@ def repeat(response: Response, model: LinearModel) -> Response:
         raise AnalysisError(message)
     step_size = float(response.time[1]) if len(response.time) > 1 else 0.001
     grid = TimeGrid.of(step_size, step_size)
-    expected = [grid.seconds(step) for step in range(len(response.time))]
-    if not np.array_equal(response.time, expected):
+    if not np.array_equal(response.time, grid.seconds(np.arange(len(response.time)))):
         message = "time: expected one sample a step, from 0 s on"
         raise AnalysisError(message)
-    angles = dict(zip(expected, response.steering_angle.tolist(), strict=True))
-    samples = sample_run(Stepper(model, grid.step_size), grid, angles.__getitem__, expected[-1])
-    return Response.of(samples, response.unit_names, grid)
+    return respond(model, response.steering_angle, grid)
 
 
 def first_parting(recorded: Response, repeated: Response, tolerance: float) -> Parting | None:

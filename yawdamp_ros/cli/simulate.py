@@ -61,7 +61,7 @@ def main(arguments: Sequence[str]) -> int:
             for sample in samples:
                 writer.write(sample)
                 peaks.update(sample)
-                bar.update(task, completed=grid.seconds(sample.step))
+                bar.update(task, completed=grid.seconds(stepper.step))
                 if stop.requested:
                     # Raised inside, so that what was simulated is kept in a finished file.
                     raise KeyboardInterrupt

@@ -8,6 +8,7 @@ import numpy.typing as npt
 from yawdamp_ros.vehicle import Vehicle
 
 FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
 
 
 def cg_rows(vehicle: Vehicle) -> FloatArray:
@@ -36,30 +37,27 @@ def cg_rows(vehicle: Vehicle) -> FloatArray:
 
 
 def coupled_positions(
-    hitches: Sequence[tuple[float, float]], x: FloatArray | float, y: FloatArray | float, yaw: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+    hitches: Sequence[tuple[float, float]], lead: ComplexArray, heading: ComplexArray
+) -> ComplexArray:
     """Centres of gravity by the true geometry of the hitches, so that units stay coupled.
 
     Parameters
     ----------
     hitches : sequence of (float, float)
         As `Vehicle.hitches`.
-    x, y : float or ndarray, shape (...)
-        Centre of gravity of the lead unit in the ground frame, m.
-    yaw : ndarray, shape (..., n)
-        In rad.
+    lead : ndarray of complex, shape (...)
+        ``x + i y`` of the lead unit's centre of gravity in the ground frame, m.
+    heading : ndarray of complex, shape (..., n)
+        ``cos(yaw) + i sin(yaw)`` of every unit.
 
     Returns
     -------
-    x, y : ndarray, shape (..., n)
-        In m.
+    ndarray of complex, shape (..., n)
+        ``x + i y`` of every unit, m.
     """
-    cosine, sine = np.cos(yaw), np.sin(yaw)
-    xs, ys = np.empty_like(yaw), np.empty_like(yaw)
-    xs[..., 0], ys[..., 0] = x, y
+    positions = np.empty_like(heading)
+    positions[..., 0] = lead
     for index, (rear_hitch, front_hitch) in enumerate(hitches):
-        for places, turn in ((xs, cosine), (ys, sine)):
-            places[..., index + 1] = (
-                places[..., index] + rear_hitch * turn[..., index] - front_hitch * turn[..., index + 1]
-            )
-    return xs, ys
+        hitch = positions[..., index] + rear_hitch * heading[..., index]
+        positions[..., index + 1] = hitch - front_hitch * heading[..., index + 1]
+    return positions

@@ -2,17 +2,16 @@
 
 import threading
 import time
+from collections.abc import Sequence
 from queue import Empty, Full, Queue
 
 from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.logs.run_writer import RunWriter
+from yawdamp_ros.logs.run_writer import RunWriter, SerialisedMessage
 
-QUEUE_LENGTH = 100_000
-"""Messages that may wait for the disk, about a minute of a three-unit run at 100 Hz."""
+QUEUE_LENGTH = 6_000
+"""Samples that may wait for the disk, a minute at 100 Hz."""
 FLUSH_PERIOD = 0.5
 """Longest time in s that a message stays where a kill would lose it."""
-
-_Message = tuple[int, int, bytes]
 
 
 class BackgroundWriter:
@@ -31,19 +30,20 @@ class BackgroundWriter:
         self.failure: LogError | None = None
         self.lost = 0
         self._writer = writer
-        self._queue: Queue[_Message | None] = Queue(QUEUE_LENGTH)
+        self._in_hand = 0
+        self._queue: Queue[Sequence[SerialisedMessage] | None] = Queue(QUEUE_LENGTH)
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
-    def offer(self, channel: int, log_time: int, data: bytes) -> None:
-        """Queue a serialised message; see `RunWriter.write`."""
+    def offer(self, messages: Sequence[SerialisedMessage]) -> None:
+        """Queue the messages of a sample; see `RunWriter.write`."""
         if self.failure is not None:
-            self.lost += 1
+            self.lost += len(messages)
             return
         try:
-            self._queue.put_nowait((channel, log_time, data))
+            self._queue.put_nowait(messages)
         except Full:
-            self.lost += 1
+            self.lost += len(messages)
 
     def close(self) -> None:
         """Write what is queued, finish the file, and wait for that."""
@@ -55,9 +55,9 @@ class BackgroundWriter:
             self._write_until_closed()
         except LogError as error:
             self.failure = error
-            self.lost += 1
-            while self._queue.get() is not None:
-                self.lost += 1
+            self.lost += self._in_hand
+            while (messages := self._queue.get()) is not None:
+                self.lost += len(messages)
             return
         try:
             self._writer.close()
@@ -68,13 +68,15 @@ class BackgroundWriter:
         flush_at = time.monotonic() + FLUSH_PERIOD
         while True:
             try:
-                message = self._queue.get(timeout=max(flush_at - time.monotonic(), 0.0))
+                messages = self._queue.get(timeout=max(flush_at - time.monotonic(), 0.0))
             except Empty:
                 pass
             else:
-                if message is None:
+                if messages is None:
                     return
-                self._writer.write(*message)
+                self._in_hand = len(messages)
+                self._writer.write(messages)
+                self._in_hand = 0
             if time.monotonic() >= flush_at:
                 self._writer.flush()
                 flush_at = time.monotonic() + FLUSH_PERIOD

@@ -6,6 +6,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+import numpy as np
+
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.stepping import Sample, TimeGrid
 
@@ -50,14 +52,14 @@ class ResponseCsv:
         self._writer.writerow(response_columns(unit_names))
 
     def write(self, sample: Sample) -> None:
-        """Append a sample."""
-        row = [self._grid.seconds(sample.step), sample.steering_angle]
-        for values in zip(*(getattr(sample, quantity).tolist() for quantity in UNIT_COLUMNS), strict=True):
-            row += values
-        row += sample.articulation.tolist()
+        """Append a sample of one or more instants."""
+        instants = np.size(sample.step)
+        units = np.stack([getattr(sample, quantity) for quantity in UNIT_COLUMNS], axis=-1)
+        parts = (self._grid.seconds(sample.step), sample.steering_angle, units, sample.articulation)
+        rows = np.hstack([np.reshape(part, (instants, np.size(part) // instants)) for part in parts])
         try:
             # repr of a float is the shortest text that reads back as the same double.
-            self._writer.writerow(map(repr, row))
+            self._writer.writerows(map(repr, row) for row in rows.tolist())
         except OSError as error:
             raise LogError(self._path, f"cannot be written: {error.strerror}") from error
 

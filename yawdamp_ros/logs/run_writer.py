@@ -13,7 +13,8 @@ from ruamel.yaml import YAML
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.message_definitions import message_definition
 
-CHUNK_SIZE = 64 * 1024
+CHUNK_SIZE = 4 * 1024 * 1024
+"""Bytes. The writer keeps an index entry of every chunk: small ones would fill the memory of a long run."""
 _INFINITE = {"sec": 9223372036, "nsec": 854775807}
 _QOS = {
     "history": "keep_last",
@@ -41,6 +42,10 @@ class Channel(NamedTuple):
 
     topic: str
     type_name: str
+
+
+SerialisedMessage = tuple[int, int, bytes]
+"""Index of its channel, simulated time in ns, and the message in CDR."""
 
 
 class RunWriter:
@@ -98,32 +103,19 @@ class RunWriter:
         except OSError as error:
             raise self._failure(error) from error
 
-    def write(self, channel: int, log_time: int, data: bytes) -> None:
-        """Append a serialised message.
-
-        Parameters
-        ----------
-        channel : int
-            Index in the channels given at the start.
-        log_time : int
-            Simulated time in ns.
-        data : bytes
-            The message in CDR.
-        """
+    def write(self, messages: Sequence[SerialisedMessage]) -> None:
+        """Append messages."""
+        add, ids, counts = self._writer.add_message, self._ids, self._counts
         try:
-            self._writer.add_message(
-                channel_id=self._ids[channel],
-                log_time=log_time,
-                publish_time=log_time,
-                sequence=self._counts[channel],
-                data=data,
-            )
+            for channel, log_time, data in messages:
+                add(ids[channel], log_time, data, log_time, counts[channel])
+                counts[channel] += 1
         except OSError as error:
             raise self._failure(error) from error
-        self._counts[channel] += 1
-        if self._first_time is None:
-            self._first_time = log_time
-        self._last_time = max(self._last_time, log_time)
+        if messages:
+            times = [messages[0][1], messages[-1][1]]
+            self._first_time = min(times) if self._first_time is None else self._first_time
+            self._last_time = max(self._last_time, *times)
 
     def flush(self) -> None:
         """Hand what has been written to the operating system, so that a kill does not lose it."""

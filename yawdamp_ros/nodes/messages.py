@@ -1,23 +1,30 @@
 """From samples to messages."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Empty, Float64
 
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.nodes.templates import Blank, Templates
 from yawdamp_ros.stepping import AppliedInput, Sample
 from yawdamp_ros.stepping.time_grid import SECOND
 
 STANDARD_GRAVITY = 9.80665
 """In m/s^2; an accelerometer at rest shows it upwards (REP-145)."""
 SCALARS = ("yaw", "yaw_rate", "lateral_acceleration")
+_OF_UNITS = (
+    *("imu_z", "imu_w", "imu_yaw_rate", "imu_lateral_acceleration"),
+    *("x", "y", "z", "w", "yaw", "yaw_rate", "speed", "lateral_velocity", "lateral_acceleration"),
+)
 INPUT_TYPES: Mapping[str, type] = MappingProxyType({"steering": Float64, "speed": Float64, "reset": Empty})
 """Messages in which a run holds what acted on the model, by the name of the input and its topic."""
 
@@ -39,17 +46,19 @@ class Noise(NamedTuple):
     lateral_acceleration: float = 0.0
     seed: int = 0
 
-    def of_step(self, step: int, units: int) -> list[list[float]]:
-        """Noise on yaw, yaw rate and lateral acceleration of every unit at a step."""
-        if not any(self[:3]):
-            return [[0.0] * units] * 3
+    @property
+    def present(self) -> bool:
+        """Whether there is any."""
+        return any(self[:3])
+
+    def of_step(self, step: int, units: int) -> FloatArray:
+        """Noise on yaw, yaw rate and lateral acceleration of every unit at a step, shape (3, units)."""
         generator = np.random.default_rng([self.seed, step])
-        drawn: list[list[float]] = (generator.standard_normal((units, 3)) * self[:3]).T.tolist()
-        return drawn
+        return (generator.standard_normal((units, 3)) * self[:3]).T
 
 
 class OutputMessages:
-    """The messages of one instant, the same objects filled anew each time.
+    """The messages of an instant.
 
     Parameters
     ----------
@@ -75,69 +84,132 @@ class OutputMessages:
         frame_prefix: str = "",
     ) -> None:
         self._noise = noise or Noise()
-        self._imus = [_imu(frame_prefix + name, self._noise) for name in unit_names]
-        self._odometries = [_odometry(frame_prefix, name) for name in unit_names]
-        self._joints = _joint_states(len(unit_names) - 1)
-        self._scalars = [Float64() for _ in unit_names for _ in SCALARS] if publish_scalars else []
+        self._units = units = len(unit_names)
         self._last_steering: tuple[int, float] | None = None
-        topics = [f"{name}/imu" for name in unit_names]
-        topics += [f"{name}/odom" for name in unit_names]
-        topics.append("joint_states")
-        if publish_scalars:
-            topics += [f"{name}/{scalar}" for name in unit_names for scalar in SCALARS]
-        self._messages = [*self._imus, *self._odometries, self._joints, *self._scalars]
-        self.types: dict[str, type] = {
-            topic: type(message) for topic, message in zip(topics, self._messages, strict=True)
+        widths = dict.fromkeys(_OF_UNITS, units)
+        widths |= {"articulation": units - 1, "articulation_rate": units - 1}
+        widths |= {"steering_angle": 1, "steering_rate": 1}
+        starts = np.cumsum([0, *widths.values()]).tolist()
+        self._columns = dict(zip(widths, starts, strict=False))
+        blanks = {f"{name}/imu": self._imu(unit, frame_prefix + name) for unit, name in enumerate(unit_names)}
+        blanks |= {
+            f"{name}/odom": self._odometry(unit, frame_prefix, name) for unit, name in enumerate(unit_names)
         }
+        blanks["joint_states"] = self._joint_states(units - 1)
+        if publish_scalars:
+            blanks |= {
+                f"{name}/{scalar}": self._blank(Float64(), {"data": scalar}, unit)
+                for unit, name in enumerate(unit_names)
+                for scalar in SCALARS
+            }
+        self.types: dict[str, type] = {topic: type(blank.message) for topic, blank in blanks.items()}
+        self._templates = Templates(list(blanks.values()))
 
     def go_on_from(self, stamp: int, steering_angle: float) -> None:
         """Take up a run after a sample of a stamp in ns: the steering rate is told from one to the next."""
         self._last_steering = stamp, steering_angle
 
-    def serialised(self, sample: Sample, stamp: int) -> Iterator[bytes]:
-        """Messages of a sample in CDR, all with one stamp in ns, in the order of `types`."""
-        seconds, nanoseconds = divmod(stamp, SECOND)
-        for message in (*self._imus, *self._odometries, self._joints):
-            message.header.stamp.sec = seconds
-            message.header.stamp.nanosec = nanoseconds
-        self._fill_units(sample)
-        self._fill_joints(sample, stamp)
-        for message in self._messages:
-            yield serialize_message(message)
+    def serialised(self, sample: Sample, stamps: Sequence[int]) -> list[list[bytes]]:
+        """Messages of each of m instants in CDR, those of an instant with its stamp in ns, as in `types`."""
+        units, instants = self._units, len(stamps)
 
-    def _fill_units(self, sample: Sample) -> None:
-        x, y = sample.x.tolist(), sample.y.tolist()
-        yaw, yaw_rate = sample.yaw.tolist(), sample.yaw_rate.tolist()
-        velocity, acceleration = (
-            sample.lateral_velocity.tolist(),
-            sample.lateral_acceleration.tolist(),
-        )
-        noise = self._noise.of_step(sample.step, len(yaw))
-        for index, (imu, odometry) in enumerate(zip(self._imus, self._odometries, strict=True)):
-            turn(imu.orientation, yaw[index] + noise[0][index])
-            imu.angular_velocity.z = yaw_rate[index] + noise[1][index]
-            imu.linear_acceleration.y = acceleration[index] + noise[2][index]
-            turn(odometry.pose.pose.orientation, yaw[index])
-            odometry.pose.pose.position.x = x[index]
-            odometry.pose.pose.position.y = y[index]
-            odometry.twist.twist.linear.x = sample.speed
-            odometry.twist.twist.linear.y = velocity[index]
-            odometry.twist.twist.angular.z = yaw_rate[index]
-        if self._scalars:
-            values = zip(yaw, yaw_rate, acceleration, strict=True)
-            for scalar, value in zip(
-                self._scalars, (value for unit in values for value in unit), strict=True
-            ):
-                scalar.data = value
+        def table(values: npt.NDArray[Any], width: int = units) -> npt.NDArray[Any]:
+            return np.reshape(values, (instants, width))
 
-    def _fill_joints(self, sample: Sample, stamp: int) -> None:
-        steering_rate = 0.0
-        if self._last_steering is not None and stamp > self._last_steering[0]:
-            elapsed = (stamp - self._last_steering[0]) / SECOND
-            steering_rate = (sample.steering_angle - self._last_steering[1]) / elapsed
-        self._last_steering = stamp, sample.steering_angle
-        self._joints.position = [sample.steering_angle, *sample.articulation.tolist()]
-        self._joints.velocity = [steering_rate, *sample.articulation_rate.tolist()]
+        # Of half the yaw, which is what a quaternion holds.
+        half = np.sqrt(table(sample.heading))
+        yaw_rate, acceleration = table(sample.yaw_rate), table(sample.lateral_acceleration)
+        imu = half, yaw_rate, acceleration
+        if self._noise.present:
+            yaw_noise, rate_noise, acceleration_noise = np.array(
+                [self._noise.of_step(step, units) for step in np.atleast_1d(sample.step).tolist()]
+            ).transpose(1, 0, 2)
+            imu = half * np.exp(0.5j * yaw_noise), yaw_rate + rate_noise, acceleration + acceleration_noise
+        angles = np.atleast_1d(sample.steering_angle)
+        columns = {
+            "imu_z": imu[0].imag,
+            "imu_w": imu[0].real,
+            "imu_yaw_rate": imu[1],
+            "imu_lateral_acceleration": imu[2],
+            "z": half.imag,
+            "w": half.real,
+            "x": table(sample.x),
+            "y": table(sample.y),
+            "yaw": table(sample.yaw),
+            "yaw_rate": yaw_rate,
+            "lateral_velocity": table(sample.lateral_velocity),
+            "lateral_acceleration": acceleration,
+            "articulation": table(sample.articulation, units - 1),
+            "articulation_rate": table(sample.articulation_rate, units - 1),
+            "steering_angle": angles[:, np.newaxis],
+            "steering_rate": self._steering_rates(angles, stamps)[:, np.newaxis],
+            "speed": np.full((instants, units), sample.speed),
+        }
+        values = np.concatenate([columns[name] for name in self._columns], axis=1)
+        return self._templates.filled(values, stamps)
+
+    def _steering_rates(self, angles: FloatArray, stamps: Sequence[int]) -> FloatArray:
+        rates = []
+        for stamp, angle in zip(stamps, angles.tolist(), strict=True):
+            rate = 0.0
+            if self._last_steering is not None and stamp > self._last_steering[0]:
+                rate = (angle - self._last_steering[1]) / ((stamp - self._last_steering[0]) / SECOND)
+            rates.append(rate)
+            self._last_steering = stamp, angle
+        return np.array(rates)
+
+    def _blank(self, message: Any, quantities: Mapping[str, str], index: int = 0) -> Blank:  # noqa: ANN401
+        """A message whose fields are to hold these quantities of a unit."""
+        return Blank(message, {path: self._columns[name] + index for path, name in quantities.items()})
+
+    def _imu(self, unit: int, frame: str) -> Blank:
+        message = Imu()
+        message.header.frame_id = frame
+        message.linear_acceleration.z = STANDARD_GRAVITY
+        # All zeros mean that a covariance is not known (REP-145); without noise there is none to know.
+        for covariance, deviation in (
+            (message.orientation_covariance, self._noise.yaw),
+            (message.angular_velocity_covariance, self._noise.yaw_rate),
+            (message.linear_acceleration_covariance, self._noise.lateral_acceleration),
+        ):
+            covariance[::4] = deviation**2
+        quantities = {
+            "orientation.z": "imu_z",
+            "orientation.w": "imu_w",
+            "angular_velocity.z": "imu_yaw_rate",
+            "linear_acceleration.y": "imu_lateral_acceleration",
+        }
+        return self._blank(message, quantities, unit)
+
+    def _odometry(self, unit: int, frame_prefix: str, name: str) -> Blank:
+        message = Odometry()
+        message.header.frame_id = f"{frame_prefix}odom"
+        message.child_frame_id = frame_prefix + name
+        quantities = {
+            "pose.pose.position.x": "x",
+            "pose.pose.position.y": "y",
+            "pose.pose.orientation.z": "z",
+            "pose.pose.orientation.w": "w",
+            "twist.twist.linear.x": "speed",
+            "twist.twist.linear.y": "lateral_velocity",
+            "twist.twist.angular.z": "yaw_rate",
+        }
+        return self._blank(message, quantities, unit)
+
+    def _joint_states(self, joints: int) -> Blank:
+        message = JointState()
+        message.name = ["steering", *(f"articulation_{joint}" for joint in range(1, joints + 1))]
+        # Filled though it means nothing here: a message that ends in an empty float64[] is padded in a way
+        # that some readers reject.
+        message.position = message.velocity = message.effort = [0.0] * (joints + 1)
+        columns = {
+            "position.0": self._columns["steering_angle"],
+            "velocity.0": self._columns["steering_rate"],
+        }
+        for joint in range(joints):
+            columns[f"position.{joint + 1}"] = self._columns["articulation"] + joint
+            columns[f"velocity.{joint + 1}"] = self._columns["articulation_rate"] + joint
+        return Blank(message, columns)
 
 
 def serialised_input(applied: AppliedInput) -> bytes:
@@ -151,36 +223,6 @@ def serialised_input(applied: AppliedInput) -> bytes:
 def type_name(message_class: Any) -> str:  # noqa: ANN401 - generated classes share no base
     """Name of a message class, as in ``sensor_msgs/msg/Imu``."""
     return f"{message_class.__module__.split('.')[0]}/msg/{message_class.__name__}"
-
-
-def _imu(frame: str, noise: Noise) -> Imu:
-    message = Imu()
-    message.header.frame_id = frame
-    message.linear_acceleration.z = STANDARD_GRAVITY
-    # All zeros mean that a covariance is not known (REP-145); without noise there is none to know.
-    for covariance, deviation in (
-        (message.orientation_covariance, noise.yaw),
-        (message.angular_velocity_covariance, noise.yaw_rate),
-        (message.linear_acceleration_covariance, noise.lateral_acceleration),
-    ):
-        covariance[::4] = deviation**2
-    return message
-
-
-def _odometry(frame_prefix: str, unit_name: str) -> Odometry:
-    message = Odometry()
-    message.header.frame_id = f"{frame_prefix}odom"
-    message.child_frame_id = frame_prefix + unit_name
-    return message
-
-
-def _joint_states(joints: int) -> JointState:
-    message = JointState()
-    message.name = ["steering", *(f"articulation_{joint}" for joint in range(1, joints + 1))]
-    # Filled though it means nothing here: a message that ends in an empty float64[] is padded in a way
-    # that some readers reject.
-    message.effort = [0.0] * (joints + 1)
-    return message
 
 
 def turn(orientation: Quaternion, yaw: float) -> None:

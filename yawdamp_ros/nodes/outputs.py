@@ -68,7 +68,7 @@ class Outputs:
         """Publish a sample with a stamp in ns; return the messages that are recorded, serialised once."""
         if self._clock is not None:
             self._clock.publish(Clock(clock=Time(nanoseconds=stamp).to_msg()))
-        serialised = list(self.messages.serialised(sample, stamp))
+        [serialised] = self.messages.serialised(sample, [stamp])
         for publisher, data in zip(self._publishers, serialised, strict=True):
             publisher.publish(data)
         if self._tf is not None and self._tf_class is not None:

@@ -1,9 +1,9 @@
 """Recording, started and stopped while the simulation goes on."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from yawdamp_ros.logs import BackgroundWriter, LogError, RunWriter
+from yawdamp_ros.logs import BackgroundWriter, LogError, RunWriter, SerialisedMessage
 
 
 class Recorder:
@@ -64,7 +64,7 @@ class Recorder:
             self._last_failure = self._writer.failure
             self._writer = None
 
-    def offer(self, channel: int, log_time: int, data: bytes) -> None:
-        """Hand over a message; it is written if a run is."""
+    def offer(self, messages: Sequence[SerialisedMessage]) -> None:
+        """Hand over the messages of a sample; they are written if a run is."""
         if self._writer is not None:
-            self._writer.offer(channel, log_time, data)
+            self._writer.offer(messages)

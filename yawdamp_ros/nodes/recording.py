@@ -3,7 +3,8 @@
 import json
 import math
 import platform
-from collections.abc import Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from types import TracebackType
@@ -12,7 +13,7 @@ from typing import Self
 import numpy as np
 import scipy
 
-from yawdamp_ros.logs import Channel, RunWriter
+from yawdamp_ros.logs import Channel, RunWriter, SerialisedMessage
 from yawdamp_ros.nodes.messages import (
     INPUT_TYPES,
     OutputMessages,
@@ -107,15 +108,30 @@ def build_of_numerics() -> str:
 
 
 def run_messages(
-    sample: Sample, outputs: Sequence[bytes], grid: TimeGrid, start_time: int
-) -> Iterable[tuple[int, int, bytes]]:
-    """Messages of a sample as `RunWriter.write` takes them: channel, time in ns, data."""
-    for applied in sample.inputs:
-        channel = INPUT_CHANNELS.index(applied.name)
-        yield channel, start_time + applied.step * grid.step_ns, serialised_input(applied)
-    stamp = start_time + sample.step * grid.step_ns
-    for index, data in enumerate(outputs):
-        yield len(INPUT_CHANNELS) + index, stamp, data
+    sample: Sample, outputs: Sequence[Sequence[bytes]], grid: TimeGrid, start_time: int
+) -> list[SerialisedMessage]:
+    """Messages of a sample, and the inputs that it tells, in the order of time.
+
+    Parameters
+    ----------
+    sample : Sample
+        Of one or more instants.
+    outputs : sequence of sequence of bytes
+        Serialised, for each instant.
+    grid : TimeGrid
+    start_time : int
+        Stamp of step 0 in ns.
+    """
+    found: list[SerialisedMessage] = []
+    pending = deque(sample.inputs)
+    for step, of_instant in zip(np.atleast_1d(sample.step).tolist(), outputs, strict=True):
+        while pending and pending[0].step <= step:
+            applied = pending.popleft()
+            stamp = start_time + applied.step * grid.step_ns
+            found.append((INPUT_CHANNELS.index(applied.name), stamp, serialised_input(applied)))
+        stamp = start_time + step * grid.step_ns
+        found += ((channel, stamp, data) for channel, data in enumerate(of_instant, len(INPUT_CHANNELS)))
+    return found
 
 
 def _is_nan(value: object) -> bool:
@@ -163,11 +179,10 @@ class RunRecorder:
         )
 
     def write(self, sample: Sample) -> None:
-        """Append the messages of a sample."""
-        stamp = sample.step * self._grid.step_ns
-        outputs = list(self._outputs.serialised(sample, stamp))
-        for message in run_messages(sample, outputs, self._grid, 0):
-            self._writer.write(*message)
+        """Append the messages of a sample of one or more instants."""
+        stamps = [step * self._grid.step_ns for step in np.atleast_1d(sample.step).tolist()]
+        outputs = self._outputs.serialised(sample, stamps)
+        self._writer.write(run_messages(sample, outputs, self._grid, 0))
 
     def __enter__(self) -> Self:
         return self

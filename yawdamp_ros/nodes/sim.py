@@ -29,6 +29,7 @@ from yawdamp_ros.nodes.recording import open_run, run_messages
 from yawdamp_ros.nodes.subscriptions import SteeringSubscription, subscribe_speed
 from yawdamp_ros.stepping import (
     Pacer,
+    Sample,
     SpeedInput,
     SteeringActuator,
     SteeringInput,
@@ -154,29 +155,39 @@ class SimNode(Node):
         else:
             self._publish(steps=self.grid.steps_per_sample)
 
-    def _drive(self, stepper: Stepper) -> None:
-        """Let what came in since the last step act from this step on."""
-        if self._reset_wanted:
-            stepper.reset()
-            self._reset_wanted = False
-        stepper.change_speed(self._speed.speed)
-        stepper.steer(self._actuator.follow(self._command(stepper.step)))
-
     def _publish(self, steps: int) -> None:
-        sample = self._stepper.run(steps, self._drive)
-        stamp = self._stamp(sample.step)
+        sample = self._step(steps)
+        stamp = self._stamp(self._stepper.step)
         serialised = self._outputs.publish(sample, stamp)
         self.samples_published += 1
         self.peaks.update(sample)
         if self.recorder.recording:
-            for message in run_messages(sample, serialised, self.grid, self._start_time):
-                self.recorder.offer(*message)
+            self.recorder.offer(run_messages(sample, [serialised], self.grid, self._start_time))
             if self.recorder.lost:
                 reason = self.recorder.failure or "the disk does not keep up"
                 self.get_logger().error(
                     f"{reason}; {self.recorder.lost} messages not recorded, the simulation goes on",
                     throttle_duration_sec=WARNING_PERIOD,
                 )
+
+    def _step(self, steps: int) -> Sample:
+        """Take steps, with what came in since the last of them acting from the first of these on."""
+        stepper = self._stepper
+        if steps == 0 or self._reset_wanted or self._speed.speed != stepper.model.speed:
+            if steps:
+                stepper.advance()
+            if self._reset_wanted:
+                stepper.reset()
+                self._reset_wanted = False
+            stepper.change_speed(self._speed.speed)
+            stepper.steer(self._angle(stepper.step))
+            if steps <= 1:
+                return stepper.sample()
+            steps -= 1
+        return stepper.run([self._angle(step) for step in range(stepper.step + 1, stepper.step + 1 + steps)])
+
+    def _angle(self, step: int) -> float:
+        return self._actuator.follow(self._command(step))
 
     def _stamp(self, step: int) -> int:
         return self._start_time + step * self.grid.step_ns

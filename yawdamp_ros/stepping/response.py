@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.errors import SteppingError
+from yawdamp_ros.stepping.propagation import Propagation, outputs_of, propagator
 from yawdamp_ros.stepping.sample import Sample
 from yawdamp_ros.stepping.stepper import Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
@@ -16,6 +17,8 @@ from yawdamp_ros.vehicle import Vehicle
 
 Steering = Callable[[float], float]
 """Road-wheel steer angle in rad at a time in s."""
+SAMPLES_AT_ONCE = 1000
+"""Instants that are computed before they are handed on."""
 
 
 @dataclass(frozen=True)
@@ -49,16 +52,16 @@ class Response:
 
     @classmethod
     def of(cls, samples: Iterable[Sample], unit_names: Sequence[str], grid: TimeGrid) -> "Response":
-        """Gather samples, at least one, into arrays."""
+        """Put samples of one or more instants each, at least one, together."""
         taken = list(samples)
 
         def stacked(field: str) -> FloatArray:
-            return np.array([getattr(sample, field) for sample in taken])
+            return np.vstack([getattr(sample, field) for sample in taken])
 
         return cls(
             unit_names=tuple(unit_names),
-            time=np.array([grid.seconds(sample.step) for sample in taken]),
-            steering_angle=stacked("steering_angle"),
+            time=grid.seconds(np.hstack([sample.step for sample in taken])),
+            steering_angle=np.hstack([sample.steering_angle for sample in taken]),
             yaw=stacked("yaw"),
             yaw_rate=stacked("yaw_rate"),
             lateral_acceleration=stacked("lateral_acceleration"),
@@ -84,14 +87,66 @@ def sample_run(stepper: Stepper, grid: TimeGrid, steering: Steering, duration: f
     Yields
     ------
     Sample
+        Of one instant, then of up to `SAMPLES_AT_ONCE` each.
     """
+    last = grid.samples_in(duration)
+    stepper.steer(steering(0.0))
+    yield stepper.sample()
+    for begin in range(0, last, SAMPLES_AT_ONCE):
+        samples = min(SAMPLES_AT_ONCE, last - begin)
+        steps = range(stepper.step + 1, stepper.step + 1 + samples * grid.steps_per_sample)
+        yield stepper.run([steering(grid.seconds(step)) for step in steps], grid.steps_per_sample)
 
-    def drive(stepper: Stepper) -> None:
-        stepper.steer(steering(grid.seconds(stepper.step)))
 
-    yield stepper.run(0, drive)
-    for _ in range(grid.samples_in(duration)):
-        yield stepper.run(grid.steps_per_sample, drive)
+def respond(model: LinearModel, angles: FloatArray, grid: TimeGrid) -> Response:
+    """Response from rest to steering given step by step.
+
+    Parameters
+    ----------
+    model : LinearModel
+    angles : ndarray, shape (k,)
+        Road-wheel steer angle in rad from 0 s on, then from the instant after each step on; at least one.
+    grid : TimeGrid
+        Samples after the last whole sample period are left out.
+
+    Returns
+    -------
+    Response
+    """
+    stepper = Stepper(model, grid.step_size)
+    stepper.steer(float(angles[0]))
+    samples = [stepper.sample()]
+    if steps := (len(angles) - 1) // grid.steps_per_sample * grid.steps_per_sample:
+        samples.append(stepper.run(angles[1 : steps + 1], grid.steps_per_sample, tell_inputs=False))
+    return Response.of(samples, model.vehicle.unit_names, grid)
+
+
+def linear_response(
+    model: LinearModel, angles: FloatArray, step_size: float
+) -> tuple[FloatArray, FloatArray]:
+    """States and outputs from rest: what `scipy.signal.lsim` computes where the input is held over steps.
+
+    Parameters
+    ----------
+    model : LinearModel
+    angles : ndarray, shape (k,)
+        Road-wheel steer angle in rad at each of k instants, held until the next.
+    step_size : float
+        From one instant to the next, s.
+
+    Returns
+    -------
+    states : ndarray, shape (k, 2 n)
+        As `LinearModel.state_names`.
+    outputs : ndarray, shape (k, 4 n - 1)
+        As `LinearModel.output_names`; the same bits as a `Stepper`'s samples.
+    """
+    motion = Propagation(propagator(model, step_size))
+    motion.steering_angle = float(angles[0])
+    states = np.zeros((len(angles), len(model.state_matrix) + 1))
+    motion.advance(angles[1:], states[1:])
+    states[:, -1] = angles
+    return states[:, :-1], outputs_of(motion.propagator, states)
 
 
 def simulate(  # noqa: PLR0913 - each is one setting of a run

@@ -2,7 +2,10 @@
 
 from typing import Literal, NamedTuple
 
-from yawdamp_ros.dynamics.kinematics import FloatArray
+import numpy as np
+import numpy.typing as npt
+
+from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray
 
 
 class AppliedInput(NamedTuple):
@@ -23,13 +26,15 @@ class AppliedInput(NamedTuple):
 
 
 class Sample(NamedTuple):
-    """Everything known of an n-unit combination at one instant.
+    """Everything known of an n-unit combination at one instant, or at m instants.
+
+    Arrays of one instant are of the shapes below; those of m instants have an axis of m before.
 
     Attributes
     ----------
-    step : int
+    step : ndarray, shape ()
         Steps since the start; with the step size, the time.
-    steering_angle : float
+    steering_angle : ndarray, shape ()
         Road-wheel steer angle in force from this instant on, rad.
     speed : float
         Longitudinal speed, m/s.
@@ -37,21 +42,24 @@ class Sample(NamedTuple):
         Centres of gravity in the ground frame, m.
     yaw, yaw_rate : ndarray, shape (n,)
         rad and rad/s; yaw is not wrapped.
+    heading : ndarray of complex, shape (n,)
+        ``cos(yaw) + i sin(yaw)``, exact after any number of turns, which the yaw as one number is not.
     lateral_velocity, lateral_acceleration : ndarray, shape (n,)
         Of each centre of gravity in its unit's own frame, gravity excluded, m/s and m/s^2.
     articulation, articulation_rate : ndarray, shape (n - 1,)
         ``psi_k - psi_(k+1)`` and its rate, rad and rad/s.
     inputs : tuple of AppliedInput
-        What took effect after the previous sample, up to this one, in order.
+        What took effect after the sample before, up to the last of these, in order.
     """
 
-    step: int
-    steering_angle: float
+    step: npt.NDArray[np.int64]
+    steering_angle: FloatArray
     speed: float
     x: FloatArray
     y: FloatArray
     yaw: FloatArray
     yaw_rate: FloatArray
+    heading: ComplexArray
     lateral_velocity: FloatArray
     lateral_acceleration: FloatArray
     articulation: FloatArray

@@ -1,18 +1,18 @@
 """The fixed step: zero-order hold by matrix exponential, exact for held steering."""
 
-import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
 import numpy as np
-from scipy.linalg import expm
+import numpy.typing as npt
 
 from yawdamp_ros.dynamics import LinearModel, linear_model
-from yawdamp_ros.dynamics.kinematics import FloatArray, coupled_positions
+from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray, coupled_positions
+from yawdamp_ros.stepping.propagation import Propagation, Propagator, outputs_of, propagator
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 
-KNOWN_SPEEDS = 1024
+KNOWN_SPEEDS = 128
 """Speeds whose matrices are kept."""
 
 
@@ -24,8 +24,11 @@ class Snapshot(NamedTuple):
     step : int
     speed : float
         In m/s.
-    vector : tuple of float
-        State, yaw of the lead unit, held steer angle.
+    steering_angle : float
+        Held road-wheel steer angle in rad.
+    state : tuple of float
+    yaw, yaw_remainder : float
+        Of the lead unit in rad: a number and what its rounding left over.
     x, y : float
         Of the lead unit's centre of gravity in the ground frame, m.
     sampled : bool
@@ -34,18 +37,40 @@ class Snapshot(NamedTuple):
 
     step: int
     speed: float
-    vector: tuple[float, ...]
+    steering_angle: float
+    state: tuple[float, ...]
+    yaw: float
+    yaw_remainder: float
     x: float
     y: float
     sampled: bool
 
 
+class _Motion(NamedTuple):
+    """One instant, or k instants: yaw and position are of the lead unit."""
+
+    states: FloatArray
+    yaw: FloatArray  # at the start of the block
+    wrapped: FloatArray  # the same without whole turns
+    turned: FloatArray  # since then
+    position: ComplexArray
+
+    def at(self, chosen: int | slice) -> "_Motion":
+        """One of the instants, or some."""
+        return _Motion(
+            self.states[chosen],
+            self.yaw[chosen],
+            self.wrapped[chosen],
+            self.turned[chosen],
+            self.position[chosen],
+        )
+
+
 class Stepper:
     """A linear model in time.
 
-    The state, the yaw of the lead unit and the held steer angle form one vector, whose transition over a
-    step is a matrix exponential: exact, at any step size, while the steering is held. The ground path
-    is the only quadrature, by the trapezoidal rule, for it turns with the yaw.
+    State and yaw are exact while the steering is held; see `Propagation`. The ground path is the only
+    quadrature, by the trapezoidal rule, for it turns with the yaw.
 
     Parameters
     ----------
@@ -59,32 +84,35 @@ class Stepper:
         self.step = 0
         self._vehicle, self._model_name = model.vehicle, model.model
         self._units = len(model.vehicle.units)
-        self._hitches = model.vehicle.hitches
         self._inputs = [
             AppliedInput(0, "speed", model.speed),
             AppliedInput(0, "steering", 0.0),
         ]
         # A measured speed comes back to values it had: their matrices are computed once.
-        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(self._matrices)
-        self.model, self._transition = self._at_speed(model.speed)
-        self._vector = np.zeros(len(self._transition))
-        self._next = np.zeros_like(self._vector)
-        self._stand_at_the_origin()
+        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(self._propagator)
+        self._motion = Propagation(propagator(model, step_size))
+        self._position = 0.0j
+        self._velocity = complex(model.speed)
+
+    @property
+    def model(self) -> LinearModel:
+        """The model at the speed of now."""
+        return self._motion.propagator.model
 
     @property
     def state(self) -> FloatArray:
         """Copy of the model's state vector, shape (2 n,)."""
-        return self._vector[: 2 * self._units].copy()
+        return self._motion.state
 
     @property
     def steering_angle(self) -> float:
         """Road-wheel steer angle held over the next step, rad."""
-        return float(self._vector[-1])
+        return self._motion.steering_angle
 
     def steer(self, angle: float) -> None:
         """Set the road-wheel steer angle in rad that is in force from this instant on."""
-        if angle != self._vector[-1]:
-            self._vector[-1] = angle
+        if angle != self.steering_angle:
+            self._motion.steering_angle = angle
             self._note("steering", angle)
 
     def change_speed(self, speed: float) -> None:
@@ -98,28 +126,42 @@ class Stepper:
             If the speed is not positive and finite.
         """
         if speed != self.model.speed:
-            self.model, self._transition = self._at_speed(speed)
-            self._set_ground_speed()
+            at_speed = self._at_speed(speed)
+            self._motion.start_block()
+            self._motion.propagator = at_speed
+            self._set_ground_velocity()
             self._note("speed", speed)
 
     def reset(self) -> None:
         """Return to rest at the origin; time and steering stay as they are."""
-        self._vector[:-1] = 0.0
-        self._stand_at_the_origin()
+        self._motion.stand(np.zeros(2 * self._units), 0.0, 0.0)
+        self._position = 0.0j
+        self._set_ground_velocity()
         self._note("reset", 0.0)
 
     def snapshot(self) -> Snapshot:
-        """What `restore` needs to go on from this instant."""
-        vector = tuple(self._vector.tolist())
-        return Snapshot(self.step, self.model.speed, vector, self._x, self._y, not self._inputs)
+        """What `restore` needs to go on from this instant, at which a block starts for both."""
+        self._motion.start_block()
+        return Snapshot(
+            step=self.step,
+            speed=self.model.speed,
+            steering_angle=self.steering_angle,
+            state=tuple(self.state.tolist()),
+            yaw=self._motion.start.yaw,
+            yaw_remainder=self._motion.start.remainder,
+            x=self._position.real,
+            y=self._position.imag,
+            sampled=not self._inputs,
+        )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
         self.change_speed(snapshot.speed)
         self.step = snapshot.step
-        self._vector[:] = snapshot.vector
-        self._x, self._y = snapshot.x, snapshot.y
-        self._set_ground_speed()
+        self._motion.stand(np.array(snapshot.state), snapshot.yaw, snapshot.yaw_remainder)
+        self._motion.steering_angle = snapshot.steering_angle
+        self._position = complex(snapshot.x, snapshot.y)
+        self._set_ground_velocity()
         self._inputs = []
 
     def apply(self, applied: AppliedInput) -> None:
@@ -131,65 +173,119 @@ class Stepper:
         else:
             self.reset()
 
-    def advance(self) -> None:
-        """Take one step with the steering held."""
-        np.dot(self._transition, self._vector, out=self._next)
-        self._vector, self._next = self._next, self._vector
-        self.step += 1
-        x_rate, y_rate = self._x_rate, self._y_rate
-        self._set_ground_speed()
-        half = 0.5 * self.step_size
-        self._x += half * (x_rate + self._x_rate)
-        self._y += half * (y_rate + self._y_rate)
+    def advance(self, steps: int = 1) -> None:
+        """Take steps with the steering held."""
+        if not steps:
+            return
+        angles = np.empty(steps)
+        angles.fill(self.steering_angle)
+        self._advance(angles)
 
-    def run(self, steps: int, drive: Callable[["Stepper"], None]) -> Sample:
-        """Take several steps and sample the instant after them.
+    def run(
+        self,
+        angles: Sequence[float] | FloatArray,
+        steps_per_sample: int | None = None,
+        *,
+        tell_inputs: bool = True,
+    ) -> Sample:
+        """Take a step for every steer angle, and sample.
 
         Parameters
         ----------
-        steps : int
-            0 for the first instant of a run.
-        drive : callable
-            Asked once at every step, in order, to set what acts on the model from that step on.
+        angles : array_like, shape (k,)
+            Road-wheel steer angles in rad, finite, each in force from the instant after its step on.
+        steps_per_sample : int, optional
+            A divisor of k: sample every so many steps. The last instant alone unless given.
+        tell_inputs : bool
+            Whether the sample is to tell where the steering changed.
 
         Returns
         -------
         Sample
+            Of the last instant, or of k / steps_per_sample instants.
         """
-        if steps == 0:
-            drive(self)
-        for _ in range(steps):
-            self.advance()
-            drive(self)
-        return self.sample()
+        given = np.asarray(angles, dtype=np.float64)
+        if tell_inputs:
+            self._note_changes(given)
+        motion = self._advance(given)
+        chosen: int | slice = -1
+        if steps_per_sample is not None:
+            chosen = slice(steps_per_sample - 1, None, steps_per_sample)
+        steps = np.arange(self.step + 1 - len(given), self.step + 1)
+        return self._sample_of(steps[chosen], given[chosen], motion.at(chosen))
 
     def sample(self) -> Sample:
         """Sample of this instant; the list of inputs starts anew."""
+        step, angle = np.asarray(self.step), np.asarray(self.steering_angle)
+        return self._sample_of(step, angle, self._now())
+
+    def _now(self) -> _Motion:
+        start = self._motion.start
+        states = self._motion.now()
+        return _Motion(
+            states,
+            np.asarray(start.yaw),
+            np.asarray(start.wrapped),
+            np.asarray(states[-1] + start.remainder),
+            np.asarray(self._position),
+        )
+
+    def _advance(self, angles: FloatArray) -> _Motion:
+        """Take a step for each of k angles."""
+        states = np.empty((len(angles), 2 * self._units + 1))
+        starts = self._motion.advance(angles, states)
+        self.step += len(angles)
+        yaw, wrapped, turned = np.empty(len(angles)), np.empty(len(angles)), states[:, -1]
+        done = 0
+        for start in starts:
+            steps = slice(done, done + start.steps)
+            yaw[steps], wrapped[steps] = start.yaw, start.wrapped
+            turned[steps] += start.remainder
+            done += start.steps
+        velocities = np.empty(len(angles) + 1, dtype=np.complex128)
+        velocities[0] = self._velocity
+        velocities[1:] = _ground_velocity(self.model.speed, states[:, 0], wrapped + turned)
+        positions = np.empty_like(velocities)
+        positions[0] = self._position
+        np.multiply(velocities[:-1] + velocities[1:], 0.5 * self.step_size, out=positions[1:])
+        np.add.accumulate(positions, out=positions)
+        self._position, self._velocity = complex(positions[-1]), complex(velocities[-1])
+        return _Motion(states, yaw, wrapped, turned, positions[1:])
+
+    def _sample_of(self, step: npt.NDArray[np.int64], steering_angle: FloatArray, motion: _Motion) -> Sample:
         count = self._units
-        state = self._vector[: 2 * count]
-        steering_angle = self.steering_angle
-        outputs = self.model.output_matrix @ state + self.model.feedthrough * steering_angle
-        yaw_rate = outputs[count : 2 * count]
-        articulation = outputs[3 * count :]
-        yaw = np.empty(count)
-        yaw[0] = self._vector[-2]
-        yaw[1:] = yaw[0] - np.cumsum(articulation)
-        x, y = coupled_positions(self._hitches, self._x, self._y, yaw)
+        states_and_angle = motion.states.copy()
+        states_and_angle[..., -1] = steering_angle
+        outputs = outputs_of(self._motion.propagator, states_and_angle)
+        yaw_rate, articulation = outputs[..., count : 2 * count], outputs[..., 3 * count :]
+        turned = np.empty_like(yaw_rate)
+        turned[..., 0] = motion.turned
+        for joint in range(count - 1):
+            turned[..., joint + 1] = turned[..., joint] - articulation[..., joint]
+        heading = _heading(motion.wrapped[..., np.newaxis] + turned)
+        positions = coupled_positions(self._vehicle.hitches, motion.position, heading)
         inputs, self._inputs = tuple(self._inputs), []
         return Sample(
-            step=self.step,
+            step=step,
             steering_angle=steering_angle,
             speed=self.model.speed,
-            x=x,
-            y=y,
-            yaw=yaw,
+            x=positions.real,
+            y=positions.imag,
+            yaw=motion.yaw[..., np.newaxis] + turned,
             yaw_rate=yaw_rate,
-            lateral_velocity=outputs[:count],
-            lateral_acceleration=outputs[2 * count : 3 * count],
+            heading=heading,
+            lateral_velocity=outputs[..., :count],
+            lateral_acceleration=outputs[..., 2 * count : 3 * count],
             articulation=articulation,
-            articulation_rate=yaw_rate[:-1] - yaw_rate[1:],
+            articulation_rate=yaw_rate[..., :-1] - yaw_rate[..., 1:],
             inputs=inputs,
         )
+
+    def _note_changes(self, angles: FloatArray) -> None:
+        """Note where the steering will change over the steps to come."""
+        before = np.append(self.steering_angle, angles[:-1])
+        for index in np.flatnonzero(angles != before).tolist():
+            self._inputs.append(AppliedInput(self.step + 1 + index, "steering", float(angles[index])))
 
     def _note(self, name: Literal["steering", "speed", "reset"], value: float) -> None:
         # Of what is set twice at one step only the last ever acted.
@@ -197,26 +293,28 @@ class Stepper:
             self._inputs.pop()
         self._inputs.append(AppliedInput(self.step, name, value))
 
-    def _matrices(self, speed: float) -> tuple[LinearModel, FloatArray]:
-        model = linear_model(self._vehicle, speed, self._model_name)
-        return model, _transition(model, self.step_size)
+    def _propagator(self, speed: float) -> Propagator:
+        return propagator(linear_model(self._vehicle, speed, self._model_name), self.step_size)
 
-    def _stand_at_the_origin(self) -> None:
-        self._x = self._y = 0.0
-        self._set_ground_speed()
-
-    def _set_ground_speed(self) -> None:
-        yaw, lateral_velocity = self._vector[-2], self._vector[0]
-        sine, cosine = math.sin(yaw), math.cos(yaw)
-        self._x_rate = self.model.speed * cosine - lateral_velocity * sine
-        self._y_rate = self.model.speed * sine + lateral_velocity * cosine
+    def _set_ground_velocity(self) -> None:
+        now = self._now()
+        yaw = np.reshape(now.wrapped + now.turned, 1)
+        self._velocity = complex(_ground_velocity(self.model.speed, now.states[:1], yaw)[0])
 
 
-def _transition(model: LinearModel, step_size: float) -> FloatArray:
-    """Transition over a step of [state, yaw of the lead unit, held steer angle]."""
-    states = len(model.state_matrix)
-    rates = np.zeros((states + 2, states + 2))
-    rates[:states, :states] = model.state_matrix
-    rates[:states, -1] = model.input_matrix
-    rates[states, 1] = 1.0
-    return np.asarray(expm(rates * step_size), dtype=np.float64)
+def _ground_velocity(speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:
+    """Velocity over ground, shape (k,)."""
+    # Never a product of two numbers that are both complex: NumPy rounds it otherwise at the end of an array.
+    heading = _heading(yaw)
+    sideways = heading * lateral_velocity
+    sideways *= 1j
+    heading *= speed
+    heading += sideways
+    return heading
+
+
+def _heading(yaw: FloatArray) -> ComplexArray:
+    """``cos(yaw) + i sin(yaw)``, of each as of all: NumPy may compute the sines of many in another way."""
+    exponent = np.zeros(yaw.shape, dtype=np.complex128)
+    exponent.imag = yaw
+    return np.exp(exponent, out=exponent)

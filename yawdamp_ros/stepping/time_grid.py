@@ -2,7 +2,12 @@
 
 import math
 from dataclasses import dataclass
+from typing import overload
 
+import numpy as np
+import numpy.typing as npt
+
+from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.errors import SteppingError
 
 SECOND = 1_000_000_000
@@ -68,8 +73,14 @@ class TimeGrid:
         """Time from one sample to the next in ns."""
         return self.step_ns * self.steps_per_sample
 
-    def seconds(self, step: int) -> float:
-        """Simulated time of a step in s."""
+    @overload
+    def seconds(self, step: int) -> float: ...
+
+    @overload
+    def seconds(self, step: npt.NDArray[np.int64]) -> FloatArray: ...
+
+    def seconds(self, step: int | npt.NDArray[np.int64]) -> float | FloatArray:
+        """Simulated time in s of a step, or of each of several."""
         return step * self.step_ns / SECOND
 
     def samples_in(self, duration: float) -> int:

@@ -1,0 +1,181 @@
+"""The zero-order hold by matrix exponential, many steps at once."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import expm
+
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics.kinematics import FloatArray
+
+LONGEST_BLOCK = 32
+"""Most steps that are computed from one start."""
+LARGEST_PRODUCT = 9216
+"""Elements from which OpenBLAS splits a product over threads, whose sums depend on how many there are."""
+
+
+class Propagator(NamedTuple):
+    """A model at one speed, ready to be stepped.
+
+    Attributes
+    ----------
+    model : LinearModel
+    steps : ndarray, shape (b (2 n + 1), 2 n + b + 1)
+        For each of b steps, the state and the yaw of the lead unit after it, by the state at the start of the
+        block and the steer angles at its b + 1 instants; an angle that comes later counts 0.
+    outputs : ndarray, shape (4 n - 1, 2 n + 1)
+        The model's outputs by state and steer angle.
+    """
+
+    model: LinearModel
+    steps: FloatArray
+    outputs: FloatArray
+
+
+class Start(NamedTuple):
+    """Where a block of steps starts from, and how many of its steps are meant.
+
+    Attributes
+    ----------
+    steps : int
+    yaw, remainder : float
+        Of the lead unit in rad: a number and what its rounding left over.
+    wrapped : float
+        The yaw without whole turns, rad.
+    """
+
+    steps: int
+    yaw: float
+    remainder: float
+    wrapped: float
+
+
+class Propagation:
+    """State and yaw of the lead unit in time, exact while the steering is held.
+
+    Each step of a block is computed from the start of the block, all of them in one product, whose rows do
+    not depend on how many of the steps are taken at once: the bits are the same however a run is cut.
+
+    Parameters
+    ----------
+    propagator : Propagator
+        Exchanged between blocks where the speed changes.
+    """
+
+    def __init__(self, propagator: Propagator) -> None:
+        self.propagator = propagator
+        size = len(propagator.model.state_matrix)
+        self._start = np.zeros(propagator.steps.shape[1])
+        self._state, self._angles = self._start[:size], self._start[size:]
+        self._block = len(self._angles) - 1
+        self._after = np.zeros((self._block + 1, size + 1))
+        self._product = self._after[1:].reshape(-1)
+        self._taken = 0
+        self.start = Start(0, 0.0, 0.0, 0.0)
+
+    @property
+    def steering_angle(self) -> float:
+        """Road-wheel steer angle in force from this instant on, rad."""
+        return float(self._angles[self._taken])
+
+    @steering_angle.setter
+    def steering_angle(self, angle: float) -> None:
+        self._angles[self._taken] = angle
+
+    @property
+    def state(self) -> FloatArray:
+        """Copy of the model's state, shape (2 n,)."""
+        return self._after[self._taken, :-1].copy()
+
+    def now(self) -> FloatArray:
+        """State, then the yaw of the lead unit since the block's `start`; shape (2 n + 1,)."""
+        return np.array(self._after[self._taken])
+
+    def start_block(self) -> None:
+        """Let the steps to come be computed from this instant."""
+        now = self._after[self._taken]
+        self.stand(now[:-1], *_exact_sum(self.start.yaw, self.start.remainder + float(now[-1])))
+
+    def stand(self, state: FloatArray, yaw: float, remainder: float) -> None:
+        """Start a block in a state, with a yaw that is the sum of two numbers and the steering as it is."""
+        self._state[:] = state
+        self._after[0, :-1] = state
+        self._after[0, -1] = 0.0
+        self._angles[0] = self._angles[self._taken]
+        self._taken = 0
+        self.start = Start(0, yaw, remainder, math.atan2(math.sin(yaw), math.cos(yaw)))
+
+    def advance(self, angles: FloatArray, states: FloatArray) -> list[Start]:
+        """Take a step for each of k steer angles.
+
+        Parameters
+        ----------
+        angles : ndarray, shape (k,)
+            Each in force from the instant after its step on, rad.
+        states : ndarray, shape (k, 2 n + 1)
+            To be filled with the state after each step, and the yaw of the lead unit since the block's start.
+
+        Returns
+        -------
+        list of Start
+            Of the blocks that these steps lie in.
+        """
+        starts, done = [], 0
+        while done < len(angles):
+            if self._taken == self._block:
+                self.start_block()
+            first = self._taken + 1
+            end = min(done + self._block - self._taken, len(angles))
+            self._taken += end - done
+            self._angles[first : self._taken + 1] = angles[done:end]
+            self.propagator.steps.dot(self._start, self._product)
+            states[done:end] = self._after[first : self._taken + 1]
+            starts.append(self.start._replace(steps=end - done))
+            done = end
+        return starts
+
+
+def propagator(model: LinearModel, step_size: float) -> Propagator:
+    """Matrices of a model for steps of a size in s."""
+    outputs = np.column_stack([model.output_matrix, model.feedthrough])
+    return Propagator(model, _steps(model, step_size), outputs)
+
+
+def outputs_of(known: Propagator, states_and_angle: FloatArray) -> FloatArray:
+    """Outputs of the model, shape (..., 4 n - 1), by states and steer angles, shape (..., 2 n + 1)."""
+    # One small product for each instant: of many at once, the bits would depend on how many.
+    outputs: FloatArray = np.matmul(known.outputs, states_and_angle[..., np.newaxis])[..., 0]
+    return outputs
+
+
+def _steps(model: LinearModel, step_size: float) -> FloatArray:
+    """See `Propagator.steps`."""
+    size = len(model.state_matrix)
+    rates = np.zeros((size + 2, size + 2))
+    rates[:size, :size] = model.state_matrix
+    rates[:size, -1] = model.input_matrix
+    rates[size, 1] = 1.0  # yaw, by the yaw rate of the lead unit
+    step = np.asarray(expm(rates * step_size), dtype=np.float64)
+    transition, by_angle = step[:-1, :-1], step[:-1, -1]
+    block = _block_length(size)
+    steps = np.zeros((block, size + 1, size + block + 1))
+    before = np.eye(size + 1, size + block + 1)
+    before[-1, size] = 0.0
+    for index, after in enumerate(steps):
+        np.matmul(transition, before, out=after)
+        after[:, size + index] = by_angle
+        before = after
+    return steps.reshape(-1, size + block + 1)
+
+
+def _block_length(size: int) -> int:
+    fitting = [b for b in range(1, LONGEST_BLOCK + 1) if b * (size + 1) * (size + b + 1) < LARGEST_PRODUCT]
+    return max(fitting, default=1)
+
+
+def _exact_sum(one: float, other: float) -> tuple[float, float]:
+    """Sum of two numbers, and what its rounding leaves over."""
+    total = one + other
+    back = total - one
+    return total, (one - (total - back)) + (other - back)
