@@ -4,6 +4,7 @@ import time
 from typing import Any
 
 from rclpy.duration import Duration
+from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
@@ -16,6 +17,7 @@ from yawdamp_ros.stepping import Sample
 from yawdamp_ros.vehicle import Vehicle
 
 QUEUE_DEPTH = 10
+NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
 
 
 class Outputs:
@@ -53,7 +55,9 @@ class Outputs:
             frame_prefix=settings.frame_prefix,
         )
         self._publishers = [
-            node.create_publisher(kind, topic, QUEUE_DEPTH) for topic, kind in self.messages.types.items()
+            # Without event handlers, each of which the executor puts into a wait set at every wake-up.
+            node.create_publisher(kind, topic, QUEUE_DEPTH, event_callbacks=NO_EVENTS)
+            for topic, kind in self.messages.types.items()
         ]
         self.topics = [publisher.topic_name for publisher in self._publishers]
         self._clock = node.create_publisher(Clock, "/clock", QUEUE_DEPTH) if settings.publish_clock else None

@@ -11,7 +11,6 @@ from types import TracebackType
 from typing import Self
 
 import numpy as np
-import scipy
 
 from yawdamp_ros.logs import Channel, RunWriter, SerialisedMessage
 from yawdamp_ros.nodes.messages import (
@@ -103,7 +102,7 @@ def build_of_numerics() -> str:
     extensions = configuration["SIMD Extensions"].get("found", [])
     return (
         f"{platform.machine()} ({' '.join(extensions)}), numpy {np.__version__}, "
-        f"scipy {scipy.__version__}, {blas['name']} {blas['version']}"
+        f"scipy {version('scipy')}, {blas['name']} {blas['version']}"
     )
 
 

@@ -4,7 +4,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import expm
 
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
@@ -156,7 +155,7 @@ def _steps(model: LinearModel, step_size: float) -> FloatArray:
     rates[:size, :size] = model.state_matrix
     rates[:size, -1] = model.input_matrix
     rates[size, 1] = 1.0  # yaw, by the yaw rate of the lead unit
-    step = np.asarray(expm(rates * step_size), dtype=np.float64)
+    step = exponential(rates * step_size)
     transition, by_angle = step[:-1, :-1], step[:-1, -1]
     block = _block_length(size)
     steps = np.zeros((block, size + 1, size + block + 1))
@@ -167,6 +166,34 @@ def _steps(model: LinearModel, step_size: float) -> FloatArray:
         after[:, size + index] = by_angle
         before = after
     return steps.reshape(-1, size + block + 1)
+
+
+def exponential(matrix: FloatArray) -> FloatArray:
+    """Matrix exponential by Taylor's series, scaled and squared.
+
+    To rounding as good as `scipy.linalg.expm` for the matrices of a step, which are small; importing that
+    would take longer than all else that a node does to start.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+
+    Returns
+    -------
+    ndarray, shape (n, n)
+    """
+    norm = float(np.abs(matrix).sum(axis=0).max())
+    squarings = max(math.frexp(norm)[1] + 1, 0)
+    scaled = matrix * 0.5**squarings
+    term = np.eye(len(matrix))
+    result = term.copy()
+    # Of a norm of at most a half the 17th power over 17! is 2e-20.
+    for power in range(1, 17):
+        term = term @ scaled / power
+        result += term
+    for _ in range(squarings):
+        result = result @ result
+    return result
 
 
 def _block_length(size: int) -> int:

@@ -1,0 +1,80 @@
+"""What runs within one process, timed by pyperf, which repeats each in several processes."""
+
+import os
+
+import control
+import numpy as np
+import pyperf
+from scipy.signal import lsim
+
+from yawdamp_ros.analysis.study import Study, draw, evaluate_all
+from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.dynamics.consistent import state_space
+from yawdamp_ros.stepping import Stepper, TimeGrid
+from yawdamp_ros.stepping.response import linear_response, respond
+from yawdamp_ros.vehicle import load_stack, load_vehicle, vehicle_text
+
+STEP = 0.001
+POINTS = 100_000
+SPANS = {
+    "units.0.axles.1.cornering_stiffness": (1e5, 6e5),
+    "units.1.mass": (4e3, 36e3),
+    "units.2.front_hitch": (2.0, 6.0),
+    "speed": (10.0, 40.0),
+}
+
+
+def offline(runner: pyperf.Runner) -> None:
+    """15 s of the interlink at 1 kHz."""
+    model = linear_model(load_vehicle("interlink"))
+    time = np.arange(15_001) * STEP
+    angles = 0.05 * np.sin(3.0 * time)
+    system = (
+        model.state_matrix, model.input_matrix[:, None], model.output_matrix, model.feedthrough[:, None],
+    )  # fmt: skip
+    grid = TimeGrid.of(STEP, STEP)
+    # The same question: an input that is held over each step.
+    runner.bench_func("lsim", lambda: lsim(system, angles, time, interp=False))
+    state_space_of_control = control.ss(*system)
+    runner.bench_func(
+        "forced_response", lambda: control.forced_response(state_space_of_control, time, angles)
+    )
+    runner.bench_func("linear_response", lambda: linear_response(model, angles, STEP))
+    runner.bench_func("respond", lambda: respond(model, angles, grid))
+
+
+def step(runner: pyperf.Runner) -> None:
+    """One step of the node's stepper, of the ten that it takes for a sample, and the sample."""
+    size = 8  # six states, the yaw and the steer angle
+    matrix, vector, result = np.random.default_rng(0).random((size, size)), np.ones(size), np.empty(size)
+    runner.bench_func("matrix-vector product", lambda: np.dot(matrix, vector, out=result))
+    stepper = Stepper(linear_model(load_vehicle("interlink")), STEP)
+    stepper.steer(0.03)
+    runner.bench_func("step", lambda: stepper.advance(10), inner_loops=10)
+    runner.bench_func("sample", stepper.sample)
+
+
+def eigenvalues(runner: pyperf.Runner) -> None:
+    """Stability of 100,000 interlinks."""
+    text = vehicle_text("interlink")
+    study = Study(text, "interlink", (), "consistent", tuple((key,) for key in SPANS))
+    points = draw(list(SPANS.values()), POINTS, seed=0)
+    stack = load_stack(text, "interlink", (), dict(zip(SPANS, points.T, strict=True)))
+    matrices, _ = state_space(stack, stack.speed)
+    runner.bench_func("eigvals", lambda: np.linalg.eigvals(matrices))
+    runner.bench_func("sweep", lambda: list(evaluate_all(study, points)))
+
+
+def main() -> None:
+    """Measure; `-o FILE` keeps the figures."""
+    # One core for everybody: nothing here may win by a second one.
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    runner = pyperf.Runner(processes=5, values=3, warmups=1)
+    runner.args.inherit_environ = ["OPENBLAS_NUM_THREADS"]
+    offline(runner)
+    step(runner)
+    eigenvalues(runner)
+
+
+if __name__ == "__main__":
+    main()

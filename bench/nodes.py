@@ -1,0 +1,139 @@
+"""The simulator node beside a bare one: processor time, rate, latency, start."""
+
+import random
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import psutil
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+
+BARE = [sys.executable, str(Path(__file__).with_name("bare_node.py"))]
+SIM = [sys.executable, "-m", "yawdamp_ros", "sim"]
+RATES = [round(200.0 * 1.05**power) * 1.0 for power in range(72)]
+"""In Hz, 200 to 6400."""
+RATE_SECONDS = 10
+SETTLING = 2.0
+"""Seconds until a node that has started is as it will be."""
+
+
+@contextmanager
+def running(command: Sequence[str], directory: Path) -> Iterator[subprocess.Popen[str]]:
+    """A node, ended by SIGINT."""
+    process = subprocess.Popen(  # noqa: S603 - this package's own commands
+        command, cwd=directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+        process.wait(timeout=30)
+
+
+class Peer:
+    """A node of this process, spinning in a thread."""
+
+    def __init__(self) -> None:
+        rclpy.init()
+        self.node = rclpy.create_node("peer")
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(self.node)
+        threading.Thread(target=self._executor.spin, daemon=True).start()
+
+    @contextmanager
+    def steering(self, rate: float) -> Iterator[None]:
+        """Steering that arrives at a rate in Hz."""
+        publisher = self.node.create_publisher(Float64, "steering", 10)
+        clock = time.monotonic
+        timer = self.node.create_timer(
+            1.0 / rate, lambda: publisher.publish(Float64(data=0.02 * (clock() % 1.0)))
+        )
+        try:
+            yield
+        finally:
+            self.node.destroy_timer(timer)
+            self.node.destroy_publisher(publisher)
+
+
+def processor_time(peer: Peer, command: Sequence[str], directory: Path, seconds: float = 10.0) -> float:
+    """Share of a core that a node takes while steering arrives at 100 Hz."""
+    with running(command, directory) as process, peer.steering(100.0):
+        time.sleep(SETTLING)
+        probe = psutil.Process(process.pid)
+        before, begin = probe.cpu_times(), time.monotonic()
+        time.sleep(seconds)
+        after, end = probe.cpu_times(), time.monotonic()
+    return (after.user + after.system - before.user - before.system) / (end - begin)
+
+
+def bare_keeps_up(rate: float, directory: Path) -> bool:
+    """Whether the bare node fires at every period over ten seconds."""
+    with running([*BARE, str(rate)], directory) as process:
+        time.sleep(SETTLING + RATE_SECONDS)
+    output, _ = process.communicate()
+    return int(output) == 0
+
+
+def sim_keeps_up(rate: float, directory: Path) -> bool:
+    """Whether the simulator, recording, gives up no step over ten seconds."""
+    options = ["--publish-rate", str(rate), "--step-size", str(1.0 / rate), "--duration", str(RATE_SECONDS)]
+    command = [*SIM, *options]
+    done = subprocess.run(command, cwd=directory, capture_output=True, text=True, check=True)  # noqa: S603
+    return "given up" not in done.stdout
+
+
+def highest_rate(keeps_up: Callable[[float, Path], bool], directory: Path) -> float:
+    """Highest rate in Hz, of some that are 5 % apart, that a node keeps up with."""
+    low, high = 0, len(RATES)
+    while high - low > 1:
+        middle = (low + high) // 2
+        if keeps_up(RATES[middle], directory):
+            low = middle
+        else:
+            high = middle
+    return RATES[low]
+
+
+def latencies(peer: Peer, directory: Path, commands: int = 300) -> list[float]:
+    """Time in s from a steering message to the first output that shows it, at 100 Hz."""
+    moments = random.Random(0)  # noqa: S311 - any moments will do
+    arrived: dict[float, float] = {}
+
+    def keep(message: JointState) -> None:
+        arrived.setdefault(message.position[0], time.perf_counter())
+
+    subscription = peer.node.create_subscription(JointState, "joint_states", keep, 10)
+    publisher = peer.node.create_publisher(Float64, "steering", 10)
+    sent: dict[float, float] = {}
+    with running(SIM, directory):
+        time.sleep(SETTLING)
+        for index in range(commands):
+            angle = 0.01 + 1e-5 * index
+            sent[angle] = time.perf_counter()
+            publisher.publish(Float64(data=angle))
+            time.sleep(moments.uniform(0.03, 0.06))
+    peer.node.destroy_subscription(subscription)
+    peer.node.destroy_publisher(publisher)
+    return [arrived[angle] - begin for angle, begin in sent.items() if angle in arrived]
+
+
+def start(peer: Peer, command: Sequence[str], directory: Path) -> float:
+    """Time in s from a command to its first message."""
+    first = threading.Event()
+    subscription = peer.node.create_subscription(JointState, "joint_states", lambda _: first.set(), 10)
+    begin = time.perf_counter()
+    with running(command, directory):
+        first.wait(timeout=30)
+        took = time.perf_counter() - begin
+    peer.node.destroy_subscription(subscription)
+    time.sleep(0.2)
+    return took

@@ -1,0 +1,29 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.linalg import expm
+
+from strategies import vehicles
+from yawdamp_ros import linear_model, load_vehicle
+from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT, exponential, propagator
+from yawdamp_ros.vehicle import Vehicle
+
+
+@given(vehicles(), st.sampled_from([1e-6, 0.001, 0.01, 0.1, 1.0]))
+def test_the_exponential_is_scipys(vehicle: Vehicle, step_size: float) -> None:
+    matrix = linear_model(vehicle).state_matrix * step_size
+    expected = expm(matrix)
+    np.testing.assert_allclose(exponential(matrix), expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
+
+
+def test_the_exponential_of_a_rotation_is_one() -> None:
+    turn = exponential(np.array([[0.0, -100.0], [100.0, 0.0]]))
+    cosine, sine = np.cos(100.0), np.sin(100.0)
+    np.testing.assert_allclose(turn, [[cosine, -sine], [sine, cosine]], atol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["single_vehicle", "truck_trailer", "interlink", "a_double"])
+def test_products_are_too_small_to_be_split_over_threads(name: str) -> None:
+    steps = propagator(linear_model(load_vehicle(name)), 0.001).steps
+    assert steps.size < LARGEST_PRODUCT
