@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 from jsonschema import Draft202012Validator, ValidationError
-from ruamel.yaml import YAML
-from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
+from yawdamp_ros.files import read_text
+from yawdamp_ros.plain_yaml import parse_yaml
 from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.loads import added_axle_loads, loaded
@@ -25,6 +25,12 @@ LONGEST_WHEELBASE = 30.0
 
 LARGEST_TYRE_LOAD = 66700.0
 """In N: up to there Fancher's formula gives more stiffness for more load, and the schema lets a file go."""
+
+LARGEST_FILE = 1 << 18
+"""Characters of a vehicle file, most of them remarks."""
+
+MOST_VALUES = 10_000
+"""Keys and values of a vehicle file."""
 
 
 class VehicleSource(NamedTuple):
@@ -82,7 +88,7 @@ def vehicle_text(vehicle: str | Path) -> str:
     builtins = builtin_vehicles()
     path = _builtin_directory() / f"{source}.yaml" if source in builtins else Path(source)
     try:
-        return path.read_text(encoding="utf-8")
+        return read_text(path, LARGEST_FILE)
     except FileNotFoundError as error:
         raise VehicleError(
             source, "", f"no such vehicle; expected a file or one of {', '.join(builtins)}"
@@ -175,16 +181,10 @@ def _validator() -> Draft202012Validator:
 
 
 def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until it is checked
-    # YAML 1.2 by ruamel.yaml: 1e5 is a number, and a key given twice is an error.
     try:
-        return YAML(typ="safe", pure=True).load(text)
-    except MarkedYAMLError as error:
-        line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
-        problem = str(error.problem).splitlines()[0]
-        raise VehicleError(source, "", f"{line}not valid YAML: {problem}") from error
-    except (YAMLError, ValueError, RecursionError) as error:
-        reason = (str(error).splitlines() or [type(error).__name__])[0]
-        raise VehicleError(source, "", f"not valid YAML: {reason}") from error
+        return parse_yaml(text, MOST_VALUES)
+    except ValueError as error:
+        raise VehicleError(source, "", str(error)) from error
 
 
 def _set(data: Any, key: str, value: Any, source: str) -> None:  # noqa: ANN401
@@ -202,14 +202,14 @@ def _set(data: Any, key: str, value: Any, source: str) -> None:  # noqa: ANN401
 
 
 def _check_schema(data: Any, source: str) -> None:  # noqa: ANN401
-    errors = sorted(_validator().iter_errors(data), key=lambda error: list(map(str, error.path)))
-    if errors:
-        raise _schema_error(errors[0], source)
+    # First, for infinities and integers too long for a float make no good messages.
     for key, value in _numbers(data, ""):
-        # Infinities pass a schema's bounds, and an integer can be too long for a float.
         if abs(value) > 1e300 or math.isnan(value):  # noqa: PLR2004
             shown = value if isinstance(value, float) else "a very long number"
             raise VehicleError(source, key, f"{shown}: expected a finite number")
+    errors = sorted(_validator().iter_errors(data), key=lambda error: list(map(str, error.path)))
+    if errors:
+        raise _schema_error(errors[0], source)
 
 
 def _schema_error(error: ValidationError, source: str) -> VehicleError:
