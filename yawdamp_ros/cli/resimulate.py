@@ -11,7 +11,8 @@ from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.options import Parser, add_format_option, add_vehicle_options, chosen_model
 from yawdamp_ros.cli.ros import require_ros
-from yawdamp_ros.logs import is_recording
+from yawdamp_ros.errors import YawdampError
+from yawdamp_ros.logs import LogError, is_recording
 from yawdamp_ros.logs.response_reader import read_response_csv
 
 VEHICLE_OPTIONS = ("vehicle", "speed", "model")
@@ -96,8 +97,11 @@ def _of_csv(path: Path, options: argparse.Namespace) -> Answer:
         repeat,
     )
 
-    recorded = read_response_csv(path)
-    repeated = repeat(recorded, chosen_model(options))
+    recorded, model = read_response_csv(path), chosen_model(options)
+    try:
+        repeated = repeat(recorded, model)
+    except YawdampError as error:
+        raise LogError(path, str(error)) from error
     parting = first_parting(recorded, repeated, TOLERANCE)
     return Answer(
         agrees=parting is None,

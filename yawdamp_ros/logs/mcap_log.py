@@ -1,37 +1,39 @@
 """Recorded messages, from a bare MCAP or from a rosbag2 directory of several, finished or cut off."""
 
-import struct
+import re
 from collections.abc import Iterator
+from contextlib import redirect_stderr
+from dataclasses import replace
+from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mcap.exceptions import McapError
-from mcap.records import Attachment, Channel, Header, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader
+from lz4.frame import LZ4FrameFile
+from mcap.records import Attachment, Channel, Chunk, Header, McapRecord, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap_ros2.decoder import DecoderFactory
-from ruamel.yaml import YAML
-from ruamel.yaml.error import YAMLError
-from zstandard import ZstdError
+from zstandard import ZstdDecompressor
 
+from yawdamp_ros.errors import one_line
+from yawdamp_ros.files import read_text, regular
 from yawdamp_ros.logs.errors import LogError
+from yawdamp_ros.plain_yaml import parse_yaml
 
 MAGIC = b"\x89MCAP0\r\n"
 LARGEST_RECORD = 1 << 30
 """Bytes; a longer record is taken for a broken length."""
 
-# What the MCAP library and its decoders raise on bytes that are not what they should be.
-BROKEN = (
-    McapError,
-    ZstdError,
-    struct.error,
-    ValueError,
-    KeyError,
-    IndexError,
-    TypeError,
-    OverflowError,
-    MemoryError,
-    RuntimeError,
-)
+LARGEST_CHUNK = 1 << 28
+"""Bytes of a chunk once it is decompressed; writers close one after some megabytes."""
+
+MOST_EXPANSION = 100
+"""Times its size that a file may hold once it is decompressed, beyond `LARGEST_CHUNK`."""
+
+LARGEST_METADATA = 1 << 20
+"""Characters of a metadata.yaml."""
+
+LARGEST_DEFINITION = 1 << 16
+"""Bytes of a message definition, with every dependency and without its remarks."""
 
 
 class RecordedMessage(NamedTuple):
@@ -39,6 +41,7 @@ class RecordedMessage(NamedTuple):
 
     Attributes
     ----------
+    file : Path
     topic : str
     type_name : str
         As in ``sensor_msgs/msg/Imu``.
@@ -50,6 +53,7 @@ class RecordedMessage(NamedTuple):
     message_encoding : str
     """
 
+    file: Path
     topic: str
     type_name: str
     log_time: int
@@ -103,16 +107,19 @@ class McapLog:
         schemas: dict[int, Schema] = {}
         channels: dict[int, Channel] = {}
         try:
-            with path.open("rb") as stream:
+            with regular(path).open("rb") as stream:
                 _check_magic(stream.read(len(MAGIC)), path)
                 stream.seek(0)
-                reader = StreamReader(stream, validate_crcs=True, record_size_limit=LARGEST_RECORD)
+                reader = _Reader(
+                    stream, emit_chunks=True, validate_crcs=True, record_size_limit=LARGEST_RECORD
+                )
                 try:
-                    for record in reader.records:
+                    for record in _unpacked(reader.records, path.stat().st_size):
                         if isinstance(record, Message):
                             channel = channels[record.channel_id]
                             schema = schemas[channel.schema_id]
                             yield RecordedMessage(
+                                path,
                                 channel.topic,
                                 schema.name,
                                 record.log_time,
@@ -128,9 +135,11 @@ class McapLog:
                             self._keep(record, path)
                 except LogError:
                     raise
-                except BROKEN as error:
-                    reason = str(error).splitlines()[0] if str(error) else "it ends in the middle"
-                    self.warning = f"{path}: unfinished or damaged, read up to there: {reason}"
+                except OSError:
+                    raise
+                except Exception as error:  # noqa: BLE001 - whatever bytes make the libraries raise
+                    reason = str(error).partition("\n")[0] or "it ends in the middle"
+                    self.warning = one_line(f"{path}: unfinished or damaged, read up to there: {reason}")
         except OSError as error:
             raise LogError(path, f"cannot be read: {error.strerror}") from error
 
@@ -161,18 +170,80 @@ class MessageDecoder:
         key = (message.type_name, message.schema.data)
         try:
             if key not in self._decoders:
-                self._decoders[key] = DecoderFactory().decoder_for(message.message_encoding, message.schema)
-            decoded = self._decoders[key] and self._decoders[key](message.data)
-        except BROKEN as error:
+                self._decoders[key] = _decoder(message)
+            decoded = self._decoders[key] and self._decoders[key](_Whole(message.data))
+        except Exception as error:  # whatever a definition and bytes make the library raise
             raise LogError(
-                message.topic, f"message at {message.log_time} ns is no {message.type_name}"
+                message.file, f"{message.topic}: message at {message.log_time} ns is no {message.type_name}"
             ) from error
         if decoded is None:
             raise LogError(
-                message.topic,
-                f"{message.schema.encoding} in {message.message_encoding}: expected ros2msg in cdr",
+                message.file,
+                f"{message.topic}: {message.schema.encoding} in {message.message_encoding}: "
+                "expected ros2msg in cdr",
             )
         return decoded
+
+
+class _Reader(StreamReader):
+    """A reader that stops where zeros begin, as after a crash of the machine: they would be empty records."""
+
+    def _read_record(self, opcode: int, length: int) -> McapRecord | None:
+        if opcode == 0:
+            message = "zeros in place of a record"
+            raise ValueError(message)
+        return super()._read_record(opcode, length)
+
+
+class _Whole(bytes):
+    """Bytes that refuse a slice beyond their end, so that a definition cannot ask for more than there is.
+
+    The library's numbers refuse that by themselves; its arrays of bytes would be cut short, and a few lines
+    that nest them make billions of values out of nothing.
+    """
+
+    def __getitem__(self, key: Any) -> Any:  # noqa: ANN401 - an index or a slice
+        if isinstance(key, slice) and key.stop is not None and key.stop > len(self):
+            message = "beyond the end of the message"
+            raise IndexError(message)
+        return super().__getitem__(key)
+
+
+def _decoder(message: RecordedMessage) -> Any:  # noqa: ANN401 - made from the definition
+    # Remarks mean nothing here, and the library takes time by the square of their length.
+    text = re.sub(rb"#.*", b"", message.schema.data)
+    if len(text) > LARGEST_DEFINITION:
+        reason = "longer than a message definition"
+        raise ValueError(reason)
+    with redirect_stderr(StringIO()):  # the library writes of what it then raises
+        return DecoderFactory().decoder_for(message.message_encoding, replace(message.schema, data=text))
+
+
+def _unpacked(records: Iterator[McapRecord], size: int) -> Iterator[McapRecord]:
+    """Records of a file of some size, those of its chunks in their place."""
+    left = LARGEST_CHUNK + MOST_EXPANSION * size
+    for record in records:
+        if isinstance(record, Chunk):
+            left -= record.uncompressed_size
+            if record.uncompressed_size > LARGEST_CHUNK or left < 0:
+                message = f"a chunk of {record.uncompressed_size} bytes once decompressed, more than is read"
+                raise ValueError(message)
+            yield from breakup_chunk(_decompressed(record), validate_crc=True)
+        else:
+            yield record
+
+
+def _decompressed(chunk: Chunk) -> Chunk:
+    """A chunk as if it had never been compressed; the library believes any length that a frame claims."""
+    if chunk.compression not in {"zstd", "lz4"}:
+        return chunk
+    source = BytesIO(chunk.data)
+    frames = ZstdDecompressor().stream_reader(source) if chunk.compression == "zstd" else LZ4FrameFile(source)
+    data = frames.read(chunk.uncompressed_size + 1)
+    if len(data) != chunk.uncompressed_size:
+        message = f"a chunk that is not of the {chunk.uncompressed_size} bytes it claims"
+        raise ValueError(message)
+    return replace(chunk, compression="", data=data)
 
 
 def is_recording(path: Path) -> bool:
@@ -180,7 +251,7 @@ def is_recording(path: Path) -> bool:
     if path.is_dir():
         return True
     try:
-        with path.open("rb") as stream:
+        with regular(path).open("rb") as stream:
             return path.suffix == ".mcap" or stream.read(len(MAGIC)) == MAGIC
     except OSError as error:
         raise LogError(path, f"cannot be read: {error.strerror}") from error
@@ -201,14 +272,15 @@ def _bag_files(directory: Path) -> list[Path]:
             raise LogError(directory, "neither metadata.yaml nor an .mcap in it; expected a recording")
         return files
     try:
-        information = YAML(typ="safe", pure=True).load(metadata.read_text(encoding="utf-8"))[
+        information = parse_yaml(read_text(metadata, LARGEST_METADATA), LARGEST_METADATA)[
             "rosbag2_bagfile_information"
         ]
         storage, names = information["storage_identifier"], information["relative_file_paths"]
+        # The last part of each: a run is read from its own directory.
         files = [directory / Path(name).name for name in names]
     except OSError as error:
         raise LogError(metadata, f"cannot be read: {error.strerror}") from error
-    except (YAMLError, ValueError, KeyError, TypeError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError) as error:
         raise LogError(metadata, "not the metadata of a rosbag2 recording") from error
     if storage != "mcap" or any(file.suffix != ".mcap" for file in files):
         raise LogError(metadata, f"storage {storage!r}: expected uncompressed files of storage 'mcap'")

@@ -12,6 +12,9 @@ from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.response_csv import UNIT_COLUMNS
 from yawdamp_ros.stepping import Response
 
+LARGEST_VALUE = 1e30
+"""Of any quantity of a run; beyond, nothing could be drawn of it."""
+
 
 def read_response_csv(path: Path) -> Response:
     """Read a run.
@@ -44,15 +47,19 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
     joints = [f"articulation_{joint}" for joint in range(1, len(units))]
     per_unit = {quantity: [f"{unit}/{quantity}" for unit in units] for quantity in UNIT_COLUMNS}
     expected = ["time", "steering_angle", *joints, *(name for names in per_unit.values() for name in names)]
+    places = {name: place for place, name in enumerate(header)}
+    if len(places) < len(header):
+        twice = next(name for place, name in enumerate(header) if places[name] != place)
+        raise LogError(path, f"column {twice}: twice; expected every column once")
     for name in expected:
-        if name not in header:
+        if name not in places:
             raise LogError(path, f"no column {name}; it has {', '.join(header)}")
     table = np.array([_numbers(row, header, number, path) for number, row in enumerate(rows, 2) if row])
     if not len(table):
         raise LogError(path, "no rows below the column names; expected at least one sample")
 
     def columns(names: Iterable[str]) -> FloatArray:
-        return table[:, [header.index(name) for name in names]]
+        return table[:, [places[name] for name in names]]
 
     unknown = np.full((len(table), len(units)), np.nan)
     return Response(
@@ -79,5 +86,7 @@ def _numbers(row: list[str], header: list[str], line: int, path: Path) -> list[f
             raise LogError(path, f"line {line}: {name}: {text!r}: expected a number") from error
         if not math.isfinite(number):
             raise LogError(path, f"line {line}: {name}: {text}: expected a finite number")
+        if abs(number) > LARGEST_VALUE:
+            raise LogError(path, f"line {line}: {name}: {text}: expected a number within {LARGEST_VALUE:g}")
         numbers.append(number)
     return numbers

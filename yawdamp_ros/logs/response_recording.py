@@ -2,15 +2,21 @@
 
 import math
 from collections import defaultdict
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder
+from yawdamp_ros.logs.response_reader import LARGEST_VALUE
 from yawdamp_ros.stepping import Response
 from yawdamp_ros.stepping.time_grid import SECOND
+
+OF_UNITS = ("imu", "odom")
+"""Topics of every unit that hold its motion."""
 
 
 def read_response_recording(path: Path) -> Response:
@@ -35,21 +41,34 @@ def read_response_recording(path: Path) -> Response:
     messages: dict[str, list[Any]] = defaultdict(list)
     units: dict[str, None] = {}
     stamps: list[int] = []
-    for message in McapLog(path).messages():
+    log = McapLog(path)
+    for message in log.messages():
         prefix, _, name = message.topic.rpartition("/")
         unit = prefix.rpartition("/")[2]
         if name == "joint_states":
             stamps.append(message.log_time)
             messages[name].append(decode(message))
-        elif name in {"imu", "odom"}:
+        elif name in OF_UNITS:
             units[unit] = None
             messages[f"{unit}/{name}"].append(decode(message))
-    count = min((len(list_) for list_ in messages.values()), default=0)
-    if not count or not units or not stamps:
-        raise LogError(path, "no run: expected joint_states, and imu and odom of every unit")
+    if (
+        not units
+        or not stamps
+        or any(f"{unit}/{name}" not in messages for unit in units for name in OF_UNITS)
+    ):
+        why = f"; {log.warning}" if log.warning else ""
+        raise LogError(path, f"no run: expected joint_states, and imu and odom of every unit{why}")
+    try:
+        return _response(messages, tuple(units), stamps)
+    except (AttributeError, TypeError, ValueError, IndexError, OverflowError) as error:
+        raise LogError(path, f"no run: its messages hold something else: {error}") from error
+
+
+def _response(messages: Mapping[str, list[Any]], units: tuple[str, ...], stamps: list[int]) -> Response:
+    count = min(map(len, messages.values()))
 
     def gather(values: Any) -> Any:  # noqa: ANN401 - a column of each unit
-        return np.array([[values(unit, index) for unit in units] for index in range(count)])
+        return _bounded([[values(unit, index) for unit in units] for index in range(count)])
 
     def imu(unit: str, index: int) -> Any:  # noqa: ANN401 - made from the definition in the file
         return messages[f"{unit}/imu"][index]
@@ -57,9 +76,10 @@ def read_response_recording(path: Path) -> Response:
     def position(unit: str, index: int) -> Any:  # noqa: ANN401
         return messages[f"{unit}/odom"][index].pose.pose.position
 
-    joints = np.array([list(message.position) for message in messages["joint_states"][:count]])
+    positions = [list(message.position) for message in messages["joint_states"][:count]]
+    joints = _bounded(positions)
     return Response(
-        unit_names=tuple(units),
+        unit_names=units,
         time=np.array([(stamp - stamps[0]) / SECOND for stamp in stamps[:count]]),
         steering_angle=joints[:, 0],
         # A quaternion knows a heading only up to whole turns; the way it turned is continuous.
@@ -70,6 +90,14 @@ def read_response_recording(path: Path) -> Response:
         x=gather(lambda unit, index: position(unit, index).x),
         y=gather(lambda unit, index: position(unit, index).y),
     )
+
+
+def _bounded(values: list[list[float]]) -> FloatArray:
+    array = np.array(values, dtype=np.float64)
+    if np.any(np.abs(array) > LARGEST_VALUE):
+        message = f"expected numbers within {LARGEST_VALUE:g}"
+        raise ValueError(message)
+    return array
 
 
 def _yaw(orientation: Any) -> float:  # noqa: ANN401

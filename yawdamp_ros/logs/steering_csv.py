@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from yawdamp_ros.logs.csv_file import csv_reader
 from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.logs.steering_log import SteeringLog
+from yawdamp_ros.logs.steering_log import LARGEST_ANGLE, SteeringLog
 
 if TYPE_CHECKING:
     import _csv
@@ -65,7 +65,13 @@ def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bo
         if times and time < times[-1]:
             raise LogError(path, f"{where}: {time_column}: {time}: expected a time not before {times[-1]}")
         times.append(time)
-        angles.append(scale * _number(row, at_angle, angle_column, where, path))
+        angle = scale * _number(row, at_angle, angle_column, where, path)
+        if abs(angle) > LARGEST_ANGLE:
+            raise LogError(
+                path,
+                f"{where}: {angle_column}: {row[at_angle]}: expected an angle within {LARGEST_ANGLE:g} rad",
+            )
+        angles.append(angle)
     if not times:
         raise LogError(path, "no samples after the line of column names")
     return SteeringLog(str(path), [time - times[0] for time in times], angles)

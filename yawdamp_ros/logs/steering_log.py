@@ -6,6 +6,12 @@ from dataclasses import dataclass, replace
 
 from yawdamp_ros.logs.errors import LogError
 
+LARGEST_ANGLE = 1e4
+"""In rad, of a road wheel or a hand wheel: what is beyond is no steering, and a model would overflow."""
+
+LONGEST_LOG = 1e9
+"""In s, as for the node: what lasts longer holds a clock that was set, not a drive."""
+
 
 @dataclass(frozen=True)
 class SteeringLog:
@@ -30,6 +36,10 @@ class SteeringLog:
     angles: Sequence[float]
     start_time: int = 0
     warning: str = ""
+
+    def __post_init__(self) -> None:
+        if self.duration > LONGEST_LOG:
+            raise LogError(self.source, f"it lasts {self.duration:g} s; expected at most {LONGEST_LOG:g} s")
 
     def __call__(self, time: float) -> float:
         """Angle in rad in force at a time in s: that of the newest sample; 0 before the first."""

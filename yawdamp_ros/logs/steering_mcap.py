@@ -8,7 +8,7 @@ from typing import Any
 
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder, RecordedMessage
-from yawdamp_ros.logs.steering_log import SteeringLog
+from yawdamp_ros.logs.steering_log import LARGEST_ANGLE, SteeringLog
 from yawdamp_ros.stepping.time_grid import SECOND
 
 
@@ -29,6 +29,9 @@ STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyT
     }
 )
 """Types that can hold steering, each with the way to its angle in rad, left positive."""
+
+LATEST = 2**31 * SECOND
+"""In ns: the seconds of a stamp are 32 bits."""
 
 
 def read_steering_mcap(
@@ -65,12 +68,12 @@ def read_steering_mcap(
         topics[message.topic] = message.type_name
         if message.type_name in STEERING_TYPES and topic in {None, message.topic}:
             found.setdefault(message.topic, []).append(message)
-    chosen = _choose(topic, topics, path)
+    chosen = _choose(topic, topics, path, log.warning)
     messages = sorted(found[chosen], key=lambda message: message.log_time)
     return _steering_log(path, chosen, messages, joint, degrees=degrees, warning=log.warning)
 
 
-def _choose(topic: str | None, topics: Mapping[str, str], path: Path) -> str:
+def _choose(topic: str | None, topics: Mapping[str, str], path: Path, warning: str) -> str:
     fitting = [name for name, kind in topics.items() if kind in STEERING_TYPES]
     if topic is not None:
         if topic not in topics:
@@ -83,7 +86,8 @@ def _choose(topic: str | None, topics: Mapping[str, str], path: Path) -> str:
         if len(candidates) == 1:
             return candidates[0]
     if not fitting:
-        raise LogError(path, f"no steering in it; its topics: {_listed(topics) or 'none'}")
+        why = f"; {warning}" if warning else ""
+        raise LogError(path, f"no steering in it; its topics: {_listed(topics) or 'none'}{why}")
     raise LogError(
         path, f"several topics could be steering; name one with --topic: {_listed(named or fitting)}"
     )
@@ -107,13 +111,17 @@ def _steering_log(  # noqa: PLR0913 - it gathers what was found
         decoded = decode(message)
         try:
             angle = STEERING_TYPES[message.type_name](decoded, joint)
-        except (AttributeError, TypeError, ValueError) as error:
+            stamp = message_stamp(decoded) or message.log_time
+        except (AttributeError, TypeError, ValueError, OverflowError) as error:
             raise LogError(path, f"{where}: not the {message.type_name} that is known") from error
         if angle is None:
             raise LogError(path, f"{where}: no joint {joint!r} with a position; name one with --joint")
         if not math.isfinite(angle):
             raise LogError(path, f"{where}: {angle}: expected a finite angle")
-        stamp = message_stamp(decoded) or message.log_time
+        if abs(angle) * scale > LARGEST_ANGLE:
+            raise LogError(path, f"{where}: {angle}: expected an angle within {LARGEST_ANGLE:g} rad")
+        if stamp >= LATEST:
+            raise LogError(path, f"{where}: {stamp} ns: expected a time that ROS can hold, before 2038")
         if stamps and stamp < stamps[-1]:
             raise LogError(path, f"{where}: time goes back by {(stamps[-1] - stamp) / SECOND:g} s")
         stamps.append(stamp)

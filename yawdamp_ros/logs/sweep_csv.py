@@ -15,7 +15,14 @@ from typing import Self
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.files import read_text
 from yawdamp_ros.logs.errors import LogError
+
+LARGEST_DESCRIPTION = 1 << 22
+"""Characters of what says which sweep a file holds, a vehicle file among it."""
+
+LONGEST_VALUE = 25
+"""Characters of a number and what follows it."""
 
 
 class SweepCsv:
@@ -92,15 +99,17 @@ class SweepCsv:
             raise self._unusable(problem) from problem
 
     def _check(self, description: Path, described: str) -> None:
-        if not description.exists() or description.read_text(encoding="utf-8") != described:
+        if not description.exists() or read_text(description, LARGEST_DESCRIPTION) != described:
             raise self._other()
 
     def _read(self) -> FloatArray:
         """Answers in the file, which loses a last row that broke off."""
-        text = self._path.read_text(encoding="utf-8")
+        text = read_text(self._path, LONGEST_VALUE * (1 + self._points.shape[0]) * len(self._header()))
         whole = text[: text.rfind("\n") + 1]
-        header, *rows = whole.splitlines() or [""]
+        header, *rows = whole.split("\n")[:-1] or [""]
         if not whole:
+            if not self._header().startswith(text):
+                raise self._other()
             self._path.write_text(self._header(), encoding="utf-8")
             return np.empty((0, len(self._columns) - self._points.shape[1]))
         try:

@@ -1,5 +1,6 @@
 """One look for every picture, and files that do not differ when nothing has changed."""
 
+import warnings
 from pathlib import Path
 
 import matplotlib as mpl
@@ -55,7 +56,9 @@ def save(figure: Figure, path: str | Path, dpi: float = 120.0) -> None:
         raise PictureError(message)
     metadata = {"Date": None, "Creator": None} if form == "svg" else {"Software": None}
     try:
-        with mpl.rc_context({"svg.hashsalt": "yawdamp_ros"}):
+        with mpl.rc_context({"svg.hashsalt": "yawdamp_ros"}), warnings.catch_warnings():
+            # A name may hold characters that no font has; they become boxes.
+            warnings.filterwarnings("ignore", message="Glyph")
             figure.savefig(path, format=form, dpi=dpi, metadata=metadata)
     except OSError as error:
         message = f"{path}: cannot be written: {error.strerror}"

@@ -119,8 +119,13 @@ def _add_legend(figure: Figure, names: Sequence[str], units: Sequence[str], join
             for name, dashes in zip(names, DASHES, strict=False)
         ]
     elif names:
-        figure.suptitle(names[0], fontsize="medium")
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 6), fontsize="small")
+        # Names are no formulas, whatever signs are in them.
+        figure.suptitle(names[0], fontsize="medium", parse_math=False)
+    legend = figure.legend(
+        handles=handles, loc="outside lower center", ncols=min(len(handles), 6), fontsize="small"
+    )
+    for text in legend.get_texts():
+        text.set_parse_math(False)
 
 
 def _joint_colour(joint: int) -> str:
