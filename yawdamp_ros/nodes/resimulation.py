@@ -7,6 +7,7 @@ from itertools import chain, groupby
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 from rclpy.serialization import deserialize_message
 
 from yawdamp_ros.dynamics import linear_model
@@ -19,6 +20,12 @@ from yawdamp_ros.vehicle import parse_vehicle
 
 TOLERANCE = 1e-12
 """Relative to the largest magnitude of a value so far; what is promised where bit-identity is not."""
+
+SHORTEST_STEP = 1000
+"""In ns, as for the node."""
+
+MOST_STEPS = 10_000_000
+"""Steps from one sample to the next, as for the node: at its shortest step and its lowest rate."""
 
 Value = float | int | str | bool
 
@@ -102,8 +109,13 @@ class Resimulation:
             )
             self._frame_prefix = parameters.get("frame_prefix", "")
             self.recorded_build = known["build"]
-        except (KeyError, ValueError, TypeError) as error:
-            raise LogError(path, f"not a run of this package, or not a whole one: {error}") from error
+            if not (self._step_ns >= SHORTEST_STEP and 1 <= self._steps_per_sample <= MOST_STEPS):
+                message = f"steps of {self._step_ns} ns, {self._steps_per_sample} a sample"
+                raise ValueError(message)  # noqa: TRY301 - it is one of many ways not to be a run
+            self._start = self._at_the_start()
+        except Exception as error:  # whatever its texts hold in place of what they should
+            why = self._log.warning or error
+            raise LogError(path, f"not a run of this package, or not a whole one: {why}") from error
         self.build = build_of_numerics()
         self.promised = self.build == self.recorded_build
         self.duration = 0.0
@@ -130,20 +142,34 @@ class Resimulation:
         ------
         float
             Simulated time of each sample, in s.
+
+        Raises
+        ------
+        LogError
+            If a message is not what its topic says, or nothing that a model could follow.
         """
-        outputs, stepper = self._at_the_start()
-        due: int | None = None
+        try:
+            yield from self._compared()
+        except Exception as error:  # whatever the bytes of a message make the libraries raise
+            raise LogError(
+                self._log.path, f"cannot be run again beyond {self.duration:g} s: {error}"
+            ) from error
+
+    def _compared(self) -> Iterator[float]:
+        outputs, stepper = self._start
+        due = stepper.step + (self._steps_per_sample if self._initial.sampled else 0)
         for step, inputs, recorded in self._instants():
-            if recorded and due is not None and step != due:
+            if step > due or (recorded and step != due):
                 missing = due * self._step_ns / SECOND
                 self._part(Difference("every output", missing, "", "no sample", "a sample"))
                 return
-            stepper.advance(step - stepper.step)
+            with np.errstate(all="ignore"):  # what overflows is no number, and so a difference
+                stepper.advance(step - stepper.step)
             for applied in inputs:
                 stepper.apply(applied)
             if not recorded:
                 continue
-            due = step + self._steps_per_sample
+            due += self._steps_per_sample
             self.duration = step * self._step_ns / SECOND
             [repeated] = outputs.serialised(stepper.sample(), [self._start_time + step * self._step_ns])
             for (name, kind), data in zip(outputs.types.items(), repeated, strict=True):
