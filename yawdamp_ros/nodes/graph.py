@@ -3,17 +3,28 @@
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import pairwise
+from pathlib import Path
 
 import rclpy
+from rclpy.exceptions import ParameterException
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
+from yawdamp_ros.files import read_text
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.stop_request import StopRequest
 
 SPIN_PERIOD = 0.1
 """Longest time in s that a stop request waits for the executor."""
+
+LARGEST_PARAMETER_FILE = 1 << 17
+"""Characters."""
+
+MOST_BRACKETS = 1000
+"""Opened in a parameter file."""
 
 
 @contextmanager
@@ -25,14 +36,22 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
     Raises
     ------
     NodeError
-        If rclpy refuses the arguments or cannot start.
+        If rclpy refuses the arguments, a file among them or a parameter, or cannot start.
     """
+    for option, value in pairwise(ros_arguments):
+        if option == "--params-file":
+            _check_parameter_file(Path(value))
+    set_logger_level("rcl", LoggingSeverity.FATAL)  # what it refuses is raised, and said once
     try:
         rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
     except Exception as error:  # rclpy raises its own types, RuntimeError and ValueError here
         raise NodeError(_first_line(error)) from error
+    finally:
+        set_logger_level("rcl", LoggingSeverity.UNSET)
     try:
         yield
+    except ParameterException as error:  # of those that every node has, and of lists of another type
+        raise NodeError(_first_line(error)) from error
     finally:
         rclpy.try_shutdown()
 
@@ -61,6 +80,21 @@ def spinning(node: Node) -> Iterator[None]:
     finally:
         executor.shutdown()
         thread.join()
+
+
+def _check_parameter_file(path: Path) -> None:
+    """Refuse what rcl's parser would not come back from: its time goes by the square of nearly everything."""
+    try:
+        text = read_text(path, LARGEST_PARAMETER_FILE)
+    except OSError as error:
+        message = f"--params-file: {path}: cannot be read: {error.strerror}"
+        raise NodeError(message) from error
+    except UnicodeDecodeError as error:
+        message = f"--params-file: {path}: not UTF-8 text; expected a YAML file"
+        raise NodeError(message) from error
+    if text.count("[") + text.count("{") > MOST_BRACKETS:
+        message = f"--params-file: {path}: more than {MOST_BRACKETS} lists and mappings in brackets"
+        raise NodeError(message)
 
 
 def _first_line(error: Exception) -> str:
