@@ -23,15 +23,6 @@ MAKE_SIM = ("sim", "--vehicle", "interlink", "--manoeuvre", "lane_change", "--du
 SAY = Callable[[str], None]
 
 
-@pytest.fixture
-def say(capsys: pytest.CaptureFixture[str]) -> SAY:
-    def shown(text: str) -> None:
-        with capsys.disabled():
-            print(f"\n  {text}", flush=True)
-
-    return shown
-
-
 def verdict(run: Path) -> dict[str, object]:
     command = [sys.executable, "-m", "yawdamp_ros", "resimulate", str(run), "--format", "json"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
