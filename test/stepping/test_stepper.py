@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
-from yawdamp_ros.stepping import Sample, Stepper
+from yawdamp_ros.stepping import Sample, Stepper, SteppingError
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle
 
 
@@ -272,3 +272,11 @@ def test_a_changing_speed_is_followed_as_by_matrices_of_every_step() -> None:
         steady = np.linalg.solve(model.state_matrix, -model.input_matrix * 0.03)
         state = steady + expm(0.01 * model.state_matrix) @ (state - steady)
         np.testing.assert_allclose(stepper.state, state, rtol=0.0, atol=1e-9)
+
+
+def test_an_unstable_motion_ends_before_its_numbers_do() -> None:
+    skidding = ["units.0.axles.1.cornering_stiffness=1", "units.0.axles.2.cornering_stiffness=1"]
+    stepper = Stepper(linear_model(load_vehicle("interlink", skidding)), 1.0)
+    with pytest.raises(SteppingError, match=r"interlink: unstable, beyond all numbers at 8. s"):
+        stepper.run(1000, steering(lambda _: 0.1))
+    assert np.isfinite(stepper.state).all()

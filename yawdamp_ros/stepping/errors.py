@@ -4,4 +4,4 @@ from yawdamp_ros.errors import YawdampError
 
 
 class SteppingError(YawdampError):
-    """Steps, periods or durations that do not fit together."""
+    """Steps, periods or durations that do not fit together, or a motion beyond all numbers."""

@@ -13,6 +13,9 @@ LONGEST_BLOCK = 32
 LARGEST_PRODUCT = 9216
 """Elements from which OpenBLAS splits a product over threads, whose sums depend on how many there are."""
 
+LARGEST_YAW = 1e100
+"""In rad: an unstable motion grows until it has no numbers left."""
+
 
 class Propagator(NamedTuple):
     """A model at one speed, ready to be stepped.
@@ -103,7 +106,8 @@ class Propagation:
         self._after[0, -1] = 0.0
         self._angles[0] = self._angles[self._taken]
         self._taken = 0
-        self.start = Start(0, yaw, remainder, math.atan2(math.sin(yaw), math.cos(yaw)))
+        wrapped = math.atan2(math.sin(yaw), math.cos(yaw)) if abs(yaw) <= LARGEST_YAW else math.nan
+        self.start = Start(0, yaw, remainder, wrapped)
 
     def advance(self, angles: FloatArray, states: FloatArray) -> list[Start]:
         """Take a step for each of k steer angles.

@@ -9,7 +9,14 @@ import numpy.typing as npt
 
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray, coupled_positions
-from yawdamp_ros.stepping.propagation import Propagation, Propagator, outputs_of, propagator
+from yawdamp_ros.stepping.errors import SteppingError
+from yawdamp_ros.stepping.propagation import (
+    LARGEST_YAW,
+    Propagation,
+    Propagator,
+    outputs_of,
+    propagator,
+)
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 
 KNOWN_SPEEDS = 128
@@ -174,7 +181,13 @@ class Stepper:
             self.reset()
 
     def advance(self, steps: int = 1) -> None:
-        """Take steps with the steering held."""
+        """Take steps with the steering held.
+
+        Raises
+        ------
+        SteppingError
+            If the motion has grown beyond all numbers.
+        """
         if not steps:
             return
         angles = np.empty(steps)
@@ -203,6 +216,11 @@ class Stepper:
         -------
         Sample
             Of the last instant, or of k / steps_per_sample instants.
+
+        Raises
+        ------
+        SteppingError
+            If the motion has grown beyond all numbers.
         """
         given = np.asarray(angles, dtype=np.float64)
         if tell_inputs:
@@ -234,6 +252,11 @@ class Stepper:
         """Take a step for each of k angles."""
         states = np.empty((len(angles), 2 * self._units + 1))
         starts = self._motion.advance(angles, states)
+        if not abs(states[-1, -1]) <= LARGEST_YAW:  # so that no number is none, either
+            grown = int(np.argmin(np.abs(states[:, -1]) <= LARGEST_YAW))
+            time = (self.step + 1 + grown) * self.step_size
+            message = f"{self._vehicle.name}: unstable, beyond all numbers at {time:g} s"
+            raise SteppingError(message)
         self.step += len(angles)
         yaw, wrapped, turned = np.empty(len(angles)), np.empty(len(angles)), states[:, -1]
         done = 0
