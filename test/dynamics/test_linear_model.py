@@ -33,3 +33,9 @@ def test_a_speed_that_is_none_is_refused(speed: float) -> None:
 def test_an_unknown_model_is_refused_with_the_known_ones() -> None:
     with pytest.raises(DynamicsError, match="model: 'exact': expected one of consistent"):
         linear_model(load_vehicle("interlink"), model="exact")
+
+
+def test_numbers_too_far_apart_for_a_model_are_refused() -> None:
+    tiny = [f"units.{unit}.{key}=5e-324" for unit in range(3) for key in ("mass", "yaw_inertia")]
+    with pytest.raises(DynamicsError, match="the numbers of interlink are too far apart to compute with"):
+        linear_model(load_vehicle("interlink", tiny))

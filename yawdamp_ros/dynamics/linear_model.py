@@ -77,7 +77,8 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     Raises
     ------
     DynamicsError
-        If the speed is below `LOWEST_SPEED` or not finite, or there is no such model for this vehicle.
+        If the speed is below `LOWEST_SPEED` or not finite, there is no such model for this vehicle, or its
+        numbers are too far apart.
     """
     speed = vehicle.speed if speed is None else speed
     if not (math.isfinite(speed) and speed >= LOWEST_SPEED):
@@ -86,8 +87,12 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     if model not in MODELS:
         message = f"model: {model!r}: expected one of {', '.join(MODELS)}"
         raise DynamicsError(message)
-    state_matrix, input_matrix = MODELS[model](vehicle, speed)
-    output_matrix, feedthrough = _outputs(vehicle, speed, state_matrix, input_matrix)
+    with np.errstate(all="ignore"):  # what overflows is no number, and is told below
+        state_matrix, input_matrix = MODELS[model](vehicle, speed)
+        output_matrix, feedthrough = _outputs(vehicle, speed, state_matrix, input_matrix)
+    if not all(np.isfinite(part).all() for part in (state_matrix, input_matrix, output_matrix, feedthrough)):
+        message = f"model: {model}: the numbers of {vehicle.name} are too far apart to compute with"
+        raise DynamicsError(message)
     return LinearModel(
         vehicle=vehicle,
         model=model,
