@@ -55,7 +55,15 @@ setup(
         "cluster": ["distributed>=2024.5"],  # sweeps on other machines
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.
-        "test": ["pytest>=8,<9", "pytest-timeout", "pytest-xdist", "hypothesis", "psutil", "rosbags"],
+        "test": [
+            "pytest>=8,<9",
+            "pytest-timeout",
+            "pytest-xdist",
+            "hypothesis",
+            "psutil",
+            "rosbags",
+            'atheris; python_version < "3.12"',  # fuzzes; its newest wheels are for Python 3.11
+        ],
         "lint": ["ruff", "mypy", "import-linter"],
         "colcon": ["colcon-core", "colcon-ros"],
     },
