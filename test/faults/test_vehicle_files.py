@@ -198,7 +198,9 @@ def test_a_hundred_megabytes_of_one_line_are_not_read(file: Path, start: bytes) 
 
 
 @pytest.mark.parametrize(
-    "text", [BILLION, "[" * 100_000, "name: !!python/object/apply:os.system ['touch executed']"]
+    "text",
+    [BILLION, "[" * 100_000, "name: !!python/object/apply:os.system ['touch executed']"],
+    ids=["aliases", "nesting", "tag"],
 )
 def test_the_command_itself_refuses_in_one_line(file: Path, text: str) -> None:
     file.write_text(text, encoding="utf-8")
