@@ -124,7 +124,14 @@ class Propagation:
         list of Start
             Of the blocks that these steps lie in.
         """
-        starts, done = [], 0
+        starts: list[Start] = []
+        # What an unstable motion grows to is for the caller to judge.
+        with np.errstate(over="ignore", invalid="ignore"):
+            self._take(angles, states, starts)
+        return starts
+
+    def _take(self, angles: FloatArray, states: FloatArray, starts: list[Start]) -> None:
+        done = 0
         while done < len(angles):
             if self._taken == self._block:
                 self.start_block()
@@ -136,7 +143,6 @@ class Propagation:
             states[done:end] = self._after[first : self._taken + 1]
             starts.append(self.start._replace(steps=end - done))
             done = end
-        return starts
 
 
 def propagator(model: LinearModel, step_size: float) -> Propagator:
