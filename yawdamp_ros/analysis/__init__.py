@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     )
     from yawdamp_ros.analysis.locus import Locus, eigenvalue_locus
     from yawdamp_ros.analysis.measures import MEASURES, Level, Measure
-    from yawdamp_ros.analysis.modes import Mode, least_damping_ratio, modes, rightmost
+    from yawdamp_ros.analysis.modes import Mode, growth, least_damping_ratio, modes, rightmost
     from yawdamp_ros.analysis.offtracking import (
         axle_path,
         high_speed_transient_offtracking,
@@ -74,6 +74,7 @@ __all__ = [
     "eigenvalue_locus",
     "failed",
     "find_boundaries",
+    "growth",
     "high_speed_transient_offtracking",
     "least_damping_ratio",
     "modes",
@@ -108,7 +109,7 @@ _MODULES = {
     "lane_change": ("SAE_J2179", "SAE_J2179_SPEED", "SingleLaneChange", "run_lane_change", "steer_axle"),
     "locus": ("Locus", "eigenvalue_locus"),
     "measures": ("MEASURES", "Level", "Measure"),
-    "modes": ("Mode", "least_damping_ratio", "modes", "rightmost"),
+    "modes": ("Mode", "growth", "least_damping_ratio", "modes", "rightmost"),
     "offtracking": ("axle_path", "high_speed_transient_offtracking", "steady_offtracking"),
     "rearward_amplification": (
         "PeakAmplification",

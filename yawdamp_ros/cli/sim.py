@@ -37,7 +37,7 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
         finally:
             node.close()
         _report(node)
-    return 1 if node.recorder.failure is not None else 0
+    return 1 if node.stopped or node.recorder.failure is not None else 0
 
 
 def _run(node: "SimNode", stop: StopRequest) -> None:
@@ -63,6 +63,8 @@ def _report(node: "SimNode") -> None:
     if node.steps_given_up:
         lost = node.grid.seconds(node.steps_given_up)
         print(f"late: {node.steps_given_up} steps given up, {lost:g} s behind the steady clock")
+    if node.stopped:
+        print(f"stopped at {node.simulated_time:g} s: {node.stopped}")
     if node.recorder.directory is not None:
         print(f"run: {node.recorder.directory}")
 

@@ -1,10 +1,12 @@
 """`simulate`: a run offline, as fast as it goes."""
 
 import argparse
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
@@ -41,6 +43,8 @@ def main(arguments: Sequence[str]) -> int:
     if not 0.0 <= duration < float("inf"):
         message = f"--duration: {duration}: expected a time in s, 0 or more"
         raise UsageError(message)
+    if growing := growth(model):
+        print(f"warning: {model.vehicle.name} is unstable at {model.speed:g} m/s: {growing}", file=sys.stderr)
     output = Path(options.output) if options.output else default_run_directory(model.vehicle.name)
     to_csv = output.suffix == ".csv"
     period = options.sample_period

@@ -13,7 +13,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
-from yawdamp_ros.analysis import least_damping_ratio
+from yawdamp_ros.analysis import growth, least_damping_ratio
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.errors import YawdampError
@@ -36,6 +36,7 @@ from yawdamp_ros.stepping import (
     Stepper,
     TimeGrid,
     Verdict,
+    meaningless,
 )
 from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
 from yawdamp_ros.vehicle import VehicleSource, parse_vehicle, vehicle_text
@@ -78,6 +79,7 @@ class SimNode(Node):
         self.peaks = Peaks(len(self.model.vehicle.units))
         self.steps_given_up = 0
         self.samples_published = 0
+        self.stopped = ""
         self._worst_lateness = 0.0
         self._reset_wanted = False
         self._stepper = Stepper(self.model, self.grid.step_size)
@@ -101,9 +103,10 @@ class SimNode(Node):
 
     @property
     def finished(self) -> bool:
-        """Whether the run has lasted as long as it was to."""
+        """Whether the run has lasted as long as it was to, or was stopped before."""
         duration = self.settings.duration
-        return bool(duration) and self.samples_published > self.grid.samples_in(duration)
+        lasted = bool(duration) and self.samples_published > self.grid.samples_in(duration)
+        return lasted or bool(self.stopped)
 
     @property
     def simulated_time(self) -> float:
@@ -114,6 +117,10 @@ class SimNode(Node):
         """Publish the first sample; from now on the steady clock counts."""
         if self.settings.publish_tf and self._outputs.without_tf:
             self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
+        if growing := growth(self.model):
+            self.get_logger().warning(
+                f"{self.model.vehicle.name} is unstable at {self.model.speed:g} m/s: {growing}"
+            )
         self._publish(steps=0)
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
         self._pacer = Pacer(self.grid.period_ns, self.settings.real_time_factor, time.monotonic_ns())
@@ -157,6 +164,11 @@ class SimNode(Node):
 
     def _publish(self, steps: int) -> None:
         sample = self._step(steps)
+        limits = self.settings.max_lateral_acceleration, self.settings.max_articulation
+        if wrong := meaningless(sample, self.model.vehicle.unit_names, *limits):
+            self.stopped = f"{wrong}, where the linear model means nothing"
+            self.get_logger().error(f"stopped at {self.simulated_time:g} s: {self.stopped}")
+            return
         stamp = self._stamp(self._stepper.step)
         serialised = self._outputs.publish(sample, stamp)
         self.samples_published += 1

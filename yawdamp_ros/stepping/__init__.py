@@ -9,6 +9,7 @@ from yawdamp_ros.stepping.steering_actuator import SteeringActuator
 from yawdamp_ros.stepping.steering_input import SteeringInput, Verdict
 from yawdamp_ros.stepping.stepper import Snapshot, Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
+from yawdamp_ros.stepping.validity import meaningless
 
 __all__ = [
     "AppliedInput",
@@ -23,5 +24,6 @@ __all__ = [
     "SteppingError",
     "TimeGrid",
     "Verdict",
+    "meaningless",
     "simulate",
 ]
