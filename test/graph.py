@@ -179,6 +179,11 @@ def has_handler(process: subprocess.Popen[str], number: int) -> bool:
     return False
 
 
+def values(status: Any) -> dict[str, str]:  # noqa: ANN401 - a generated message
+    """Values of a diagnostic status by key."""
+    return {value.key: value.value for value in status.values}
+
+
 def stamps(messages: Sequence[Any]) -> list[int]:
     """Stamps of messages in ns."""
     return [message.header.stamp.sec * 10**9 + message.header.stamp.nanosec for message in messages]

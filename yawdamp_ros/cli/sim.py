@@ -37,7 +37,7 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
         finally:
             node.close()
         _report(node)
-    return 1 if node.stopped or node.recorder.failure is not None else 0
+    return 1 if node.stopped or node.recorder.failure is not None or node.recorder.lost else 0
 
 
 def _run(node: "SimNode", stop: StopRequest) -> None:

@@ -28,22 +28,28 @@ class BackgroundWriter:
     def __init__(self, writer: RunWriter) -> None:
         self.directory = writer.directory
         self.failure: LogError | None = None
-        self.lost = 0
+        # Each thread counts for itself, for an addition by two threads can get lost.
+        self._lost_before_queue = 0
+        self._lost_behind_queue = 0
         self._writer = writer
-        self._in_hand = 0
         self._queue: Queue[Sequence[SerialisedMessage] | None] = Queue(QUEUE_LENGTH)
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
+    @property
+    def lost(self) -> int:
+        """Messages that are not in the file, as far as is known."""
+        return self._lost_before_queue + self._lost_behind_queue
+
     def offer(self, messages: Sequence[SerialisedMessage]) -> None:
         """Queue the messages of a sample; see `RunWriter.write`."""
         if self.failure is not None:
-            self.lost += len(messages)
+            self._lost_before_queue += len(messages)
             return
         try:
             self._queue.put_nowait(messages)
         except Full:
-            self.lost += len(messages)
+            self._lost_before_queue += len(messages)
 
     def close(self) -> None:
         """Write what is queued, finish the file, and wait for that."""
@@ -54,14 +60,15 @@ class BackgroundWriter:
         try:
             self._write_until_closed()
         except LogError as error:
+            self._lost_behind_queue += self._writer.unflushed
             self.failure = error
-            self.lost += self._in_hand
             while (messages := self._queue.get()) is not None:
-                self.lost += len(messages)
+                self._lost_behind_queue += len(messages)
             return
         try:
             self._writer.close()
         except LogError as error:
+            self._lost_behind_queue += self._writer.unflushed
             self.failure = error
 
     def _write_until_closed(self) -> None:
@@ -74,9 +81,7 @@ class BackgroundWriter:
             else:
                 if messages is None:
                     return
-                self._in_hand = len(messages)
                 self._writer.write(messages)
-                self._in_hand = 0
-            if time.monotonic() >= flush_at:
+                    if time.monotonic() >= flush_at:
                 self._writer.flush()
                 flush_at = time.monotonic() + FLUSH_PERIOD

@@ -1,5 +1,7 @@
 """A run on disk: a rosbag2 directory with one MCAP file that explains itself."""
 
+import errno
+import os
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
@@ -79,6 +81,7 @@ class RunWriter:
         self._definitions = [message_definition(channel.type_name) for channel in channels]
         self._channels = tuple(channels)
         self._counts = [0] * len(channels)
+        self._taken = self._flushed = 0
         self._first_time: int | None = None
         self._last_time = 0
         self._path = directory / f"{directory.name}_0.mcap"
@@ -103,8 +106,14 @@ class RunWriter:
         except OSError as error:
             raise self._failure(error) from error
 
+    @property
+    def unflushed(self) -> int:
+        """Messages since the last flush, which a failure may have lost."""
+        return self._taken - self._flushed
+
     def write(self, messages: Sequence[SerialisedMessage]) -> None:
         """Append messages."""
+        self._taken += len(messages)
         add, ids, counts = self._writer.add_message, self._ids, self._counts
         try:
             for channel, log_time, data in messages:
@@ -121,8 +130,10 @@ class RunWriter:
         """Hand what has been written to the operating system, so that a kill does not lose it."""
         try:
             self._writer.flush()
+            self._check_place()
         except OSError as error:
             raise self._failure(error) from error
+        self._flushed = self._taken
 
     def close(self) -> None:
         """Finish the file and write metadata.yaml; a file that failed before is left as it is."""
@@ -132,9 +143,14 @@ class RunWriter:
             information = self._information()
             self._writer.add_metadata("rosbag2", {"serialized_metadata": _dump_yaml(information)})
             self._writer.finish()
+            self._check_place()
             self._close_file()
+            self._flushed = self._taken
+            # Under its own name only when it is whole: readers go by it, and do without where it is missing.
+            unfinished = self.directory / "metadata.yaml.unfinished"
             text = _dump_yaml({"rosbag2_bagfile_information": information})
-            (self.directory / "metadata.yaml").write_text(text, encoding="utf-8")
+            unfinished.write_text(text, encoding="utf-8")
+            unfinished.replace(self.directory / "metadata.yaml")
         except OSError as error:
             raise self._failure(error) from error
 
@@ -190,6 +206,12 @@ class RunWriter:
             "ros_distro": "jazzy",
         }
 
+    def _check_place(self) -> None:
+        # To write to a file that was removed succeeds, and keeps nothing.
+        if self._file is not None and not os.fstat(self._file.fileno()).st_nlink:
+            self._taken = self._flushed = 0
+            raise FileNotFoundError(errno.ENOENT, "the file was removed while it was written")
+
     def _close_file(self) -> None:
         if self._file is not None:
             self._file.close()
@@ -204,12 +226,16 @@ class RunWriter:
 def default_run_directory(vehicle_name: str) -> Path:
     """A directory that does not exist yet: ``runs/<stamp>_<vehicle>`` below the working directory."""
     stamp = datetime.now(tz=UTC).astimezone().strftime("%Y%m%d-%H%M%S")
-    wanted = Path("runs", f"{stamp}_{vehicle_name}")
-    directory, repeat = wanted, 1
-    while directory.exists():
+    return unused(Path("runs", f"{stamp}_{vehicle_name}"))
+
+
+def unused(wanted: Path) -> Path:
+    """A path that does not exist yet: the one wanted, or one with a number behind its name."""
+    path, repeat = wanted, 1
+    while os.path.lexists(path):
         repeat += 1
-        directory = wanted.with_name(f"{wanted.name}_{repeat}")
-    return directory
+        path = wanted.parent / f"{wanted.name}_{repeat}"
+    return path
 
 
 def _dump_yaml(data: object) -> str:

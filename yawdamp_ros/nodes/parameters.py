@@ -4,6 +4,7 @@ import difflib
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
+from pathlib import Path
 from typing import Any
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -140,7 +141,10 @@ class SimParameters:
     noise_seed: int = _parameter(0, "of the noise: the same seed gives the same noise", limits=(0, 2**31 - 1))
     record: bool = _parameter(default=True, description="record the run from its start")
     record_directory: str = _parameter(
-        "", "directory of the run, which must not exist; empty: runs/<stamp>_<vehicle>"
+        "",
+        "directory of the run, which must not exist; empty: runs/<stamp>_<vehicle>; set while running, it is "
+        "below the working directory and of the next ~/record",
+        dynamic=True,
     )
 
     def problem(self) -> str:
@@ -215,6 +219,10 @@ def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimPara
     wanted = {parameter.name: parameter.value for parameter in parameters if parameter.name in described}
     for name, value in wanted.items():
         _check(name, value, getattr(settings, name), described[name])
+    directory = wanted.get("record_directory", settings.record_directory)
+    if directory != settings.record_directory and not _is_confined(directory):
+        message = f"parameter record_directory: {directory!r}: expected one below the working directory"
+        raise NodeError(message)
     new = replace(settings, **wanted)
     if problem := new.problem():
         message = f"parameter {problem}"
@@ -236,6 +244,17 @@ def _check(name: str, value: Any, default: Any, described: Mapping[str, Any]) ->
     if problem:
         message = f"parameter {name}: {value!r}: {problem}"
         raise NodeError(message)
+
+
+def _is_confined(directory: str) -> bool:
+    """Whether a path that any peer on the graph can have set stays below the working directory."""
+    path = Path(directory)
+    if path.is_absolute() or ".." in path.parts or not directory.isprintable():
+        return False
+    try:
+        return path.resolve().is_relative_to(Path.cwd().resolve())
+    except (OSError, RuntimeError):  # a loop of symlinks, or no working directory any more
+        return False
 
 
 def _descriptor(described: Mapping[str, Any]) -> ParameterDescriptor:

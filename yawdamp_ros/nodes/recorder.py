@@ -45,16 +45,16 @@ class Recorder:
         return f"recording to {self.directory}" if self.recording else "idle"
 
     def start(self, directory: Path) -> None:
-        """Start a run.
+        """Start a run, and finish the one before it.
 
         Raises
         ------
         LogError
-            If the directory exists or cannot be written.
+            If the directory exists or cannot be written; then the run before it goes on.
         """
+        writer = BackgroundWriter(self._open_writer(directory))
         self.stop()
-        self._writer = BackgroundWriter(self._open_writer(directory))
-        self.directory, self._last_failure = directory, None
+        self._writer, self.directory = writer, directory
 
     def stop(self) -> None:
         """Finish the run that is being written, if there is one, and wait for that."""

@@ -17,7 +17,7 @@ from yawdamp_ros.analysis import growth, least_damping_ratio
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.errors import YawdampError
-from yawdamp_ros.logs import RunWriter, default_run_directory
+from yawdamp_ros.logs import RunWriter, default_run_directory, unused
 from yawdamp_ros.manoeuvres import make_manoeuvre
 from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
 from yawdamp_ros.nodes.errors import NodeError
@@ -26,7 +26,7 @@ from yawdamp_ros.nodes.outputs import Outputs
 from yawdamp_ros.nodes.parameters import SimParameters, changed, declare_parameters
 from yawdamp_ros.nodes.recorder import Recorder
 from yawdamp_ros.nodes.recording import open_run, run_messages
-from yawdamp_ros.nodes.subscriptions import SteeringSubscription, subscribe_speed
+from yawdamp_ros.nodes.subscriptions import STEADY, SteeringSubscription, subscribe_speed
 from yawdamp_ros.stepping import (
     Pacer,
     Sample,
@@ -82,6 +82,7 @@ class SimNode(Node):
         self.stopped = ""
         self._worst_lateness = 0.0
         self._reset_wanted = False
+        self._loss_said = 0
         self._stepper = Stepper(self.model, self.grid.step_size)
         self._speed = SpeedInput(self.model.speed)
         self._input = SteeringInput(ratio=self.settings.steering_ratio, **_of_input(self.settings, self.grid))
@@ -99,7 +100,7 @@ class SimNode(Node):
         self._start_time = time.time_ns()
         self.recorder = Recorder(self._open_run)
         if self.settings.record:
-            self._start_recording(self.settings.record_directory)
+            self._start_recording(self._run_directory())
 
     @property
     def finished(self) -> bool:
@@ -140,8 +141,9 @@ class SimNode(Node):
     def close(self) -> None:
         """Finish the recording and let subscribers have what was published."""
         self.recorder.stop()
-        if self.recorder.failure is not None:
-            self.get_logger().error(f"{self.recorder.failure}; {self.recorder.lost} messages not recorded")
+        if self.recorder.lost or self.recorder.failure is not None:
+            reason = f"{self.recorder.failure}; " if self.recorder.failure is not None else ""
+            self.get_logger().error(f"{reason}{self.recorder.lost} messages not recorded")
         self._outputs.wait_for_subscribers()
 
     def _on_timer(self) -> None:
@@ -152,6 +154,7 @@ class SimNode(Node):
             self.get_logger().warning(
                 f"late by more than can be made up for: {self.steps_given_up} steps given up so far",
                 throttle_duration_sec=WARNING_PERIOD,
+                throttle_time_source_type=STEADY,
             )
         for _ in range(due.periods):
             self._advance()
@@ -175,12 +178,6 @@ class SimNode(Node):
         self.peaks.update(sample)
         if self.recorder.recording:
             self.recorder.offer(run_messages(sample, [serialised], self.grid, self._start_time))
-            if self.recorder.lost:
-                reason = self.recorder.failure or "the disk does not keep up"
-                self.get_logger().error(
-                    f"{reason}; {self.recorder.lost} messages not recorded, the simulation goes on",
-                    throttle_duration_sec=WARNING_PERIOD,
-                )
 
     def _step(self, steps: int) -> Sample:
         """Take steps, with what came in since the last of them acting from the first of these on."""
@@ -270,7 +267,7 @@ class SimNode(Node):
     def _on_record(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         try:
             if request.data:
-                self._start_recording("")
+                self._start_recording(unused(self._run_directory()))
             else:
                 self.recorder.stop()
         except YawdampError as error:
@@ -279,10 +276,13 @@ class SimNode(Node):
         response.success, response.message = self.recorder.failure is None, self.recorder.state
         return response
 
-    def _start_recording(self, directory: str) -> None:
-        path = Path(directory) if directory else default_run_directory(self.model.vehicle.name)
-        self.recorder.start(path)
-        self.get_logger().info(f"recording to {path}")
+    def _run_directory(self) -> Path:
+        wanted = self.settings.record_directory
+        return Path(wanted) if wanted else default_run_directory(self.model.vehicle.name)
+
+    def _start_recording(self, directory: Path) -> None:
+        self.recorder.start(directory)
+        self.get_logger().info(f"recording to {directory}")
 
     def _open_run(self, directory: Path) -> RunWriter:
         return open_run(
@@ -323,6 +323,14 @@ class SimNode(Node):
             speed=self._stepper.model.speed,
         )
         self._worst_lateness = 0.0
+        if self.recorder.lost > self._loss_said:
+            self._loss_said = self.recorder.lost
+            reason = self.recorder.failure or "the disk does not keep up"
+            self.get_logger().error(
+                f"{reason}; {self._loss_said} messages not recorded, the simulation goes on",
+                throttle_duration_sec=WARNING_PERIOD,
+                throttle_time_source_type=STEADY,
+            )
         self._diagnostics.publish(self._diagnosis.of(readings, elapsed, time.time_ns()))
 
 

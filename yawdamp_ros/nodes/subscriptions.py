@@ -5,6 +5,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from std_msgs.msg import Float64
 
@@ -16,6 +18,8 @@ from yawdamp_ros.stepping.time_grid import SECOND
 QUEUE_DEPTH = 10
 WARNING_PERIOD = 5.0
 """Seconds between warnings of one kind."""
+STEADY = Clock(clock_type=ClockType.STEADY_TIME)
+"""What rclpy is to throttle by: by the system's clock, a jump back silences it for as long as the jump."""
 
 
 def message_class(type_name: str) -> Any:  # noqa: ANN401 - generated classes share no base
@@ -106,6 +110,7 @@ def subscribe_speed(node: Node, target: SpeedInput) -> None:
                 f"speed: {message.data}: refused or clamped, "
                 f"{target.rejected} refused and {target.clamped} clamped so far",
                 throttle_duration_sec=WARNING_PERIOD,
+                throttle_time_source_type=STEADY,
             )
 
     node.create_subscription(Float64, "speed", receive, QUEUE_DEPTH)
