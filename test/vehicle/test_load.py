@@ -64,6 +64,8 @@ def test_overrides_change_one_value_each() -> None:
         ("units.0.rear_hitch=-3311", "units.0.rear_hitch: -3311: expected a distance"),
         ("units.1.axles.0.position=-29.0", "units.1: 30.275 m from its foremost to its rearmost"),
         ("units.1.name=truck", "units.1.name: 'truck': expected a name not yet taken"),
+        ("name=../truck", "name: '../truck': expected a name of lower-case"),
+        ('name="truck\\n"', "name: 'truck\\n': expected a name of lower-case"),
         ("units.1.name=Trailer 1", "units.1.name: 'Trailer 1': expected a name of lower-case"),
         ("units.0.front_hitch=1.0", "units.0.front_hitch: the lead unit is not towed"),
         ("units.1.rear_hitch=2.0", "units.1.rear_hitch: 2.0: expected a position behind"),
