@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
+from yawdamp_ros.nodes.neighbours import Neighbourhood
 from yawdamp_ros.stepping.time_grid import SECOND
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
@@ -31,6 +32,8 @@ class Readings(NamedTuple):
         ``topic`` or the name of the manoeuvre.
     refused : dict of str to int
         Commands and speeds that were refused or clamped, by reason.
+    neighbourhood : Neighbourhood
+        Who publishes on the inputs.
     recorder : str
         ``recording``, ``idle`` or ``failed: ...``.
     messages_lost : int
@@ -50,6 +53,7 @@ class Readings(NamedTuple):
     steering_timed_out: bool
     steering_source: str
     refused: dict[str, int]
+    neighbourhood: Neighbourhood
     recorder: str
     messages_lost: int
     least_damping_ratio: float
@@ -113,19 +117,21 @@ class Diagnosis:
 
     def _steering(self, now: Readings, before: Readings) -> DiagnosticStatus:
         grown = [reason for reason, count in now.refused.items() if count > before.refused.get(reason, 0)]
-        level, message = OK, f"steered by {now.steering_source}"
+        troubles = list(now.neighbourhood.problems)
+        message = f"steered by {now.steering_source}"
         if grown:
-            level, message = WARN, f"since the last look: {', '.join(grown)}"
+            troubles.append(f"since the last look: {', '.join(grown)}")
         elif now.steering_timed_out:
-            level, message = WARN, "no command for longer than steering_timeout"
+            troubles.append("no command for longer than steering_timeout")
         elif now.steering_source == "topic" and now.steering_silence is None:
             message = "no command yet"
         age = "none yet" if now.steering_silence is None else f"{now.steering_silence:.3f} s"
         return self._status(
             "steering",
-            level,
-            message,
+            WARN if troubles else OK,
+            "; ".join(troubles) or message,
             age=age,
+            publishers=str(now.neighbourhood.publishers),
             **{reason.replace(" ", "_"): str(count) for reason, count in now.refused.items()},
         )
 

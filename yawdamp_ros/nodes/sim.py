@@ -22,6 +22,7 @@ from yawdamp_ros.manoeuvres import make_manoeuvre
 from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.messages import INPUT_TYPES
+from yawdamp_ros.nodes.neighbours import Neighbours
 from yawdamp_ros.nodes.outputs import Outputs
 from yawdamp_ros.nodes.parameters import SimParameters, changed, declare_parameters
 from yawdamp_ros.nodes.recorder import Recorder
@@ -135,6 +136,7 @@ class SimNode(Node):
         self.create_service(SetBool, "~/record", self._on_record)
         self._diagnosis = Diagnosis(self.get_fully_qualified_name(), self.model.vehicle.name)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._neighbours = Neighbours(self, ("steering", "speed"))
         self._looked_at = time.monotonic_ns()
         self.create_timer(DIAGNOSTICS_PERIOD, self._diagnose, clock=steady)
 
@@ -317,6 +319,7 @@ class SimNode(Node):
             steering_timed_out=self._input.timed_out(self._stepper.step),
             steering_source=self.settings.manoeuvre.replace("none", "topic"),
             refused=refused,
+            neighbourhood=self._neighbours.look(),
             recorder=self.recorder.state,
             messages_lost=self.recorder.lost,
             least_damping_ratio=least_damping_ratio(self._stepper.model),

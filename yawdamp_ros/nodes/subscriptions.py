@@ -7,6 +7,7 @@ from typing import Any
 
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from std_msgs.msg import Float64
 
@@ -20,6 +21,8 @@ WARNING_PERIOD = 5.0
 """Seconds between warnings of one kind."""
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
 """What rclpy is to throttle by: by the system's clock, a jump back silences it for as long as the jump."""
+QUIET = SubscriptionEventCallbacks(use_default_callbacks=False)
+"""What does not fit is said by `Neighbours`, which knows whose it is."""
 
 
 def message_class(type_name: str) -> Any:  # noqa: ANN401 - generated classes share no base
@@ -77,7 +80,9 @@ class SteeringSubscription:
         self._target = target
         self._step = step
         self._now = now
-        node.create_subscription(message_class(type_name), "steering", self._receive, QUEUE_DEPTH)
+        node.create_subscription(
+            message_class(type_name), "steering", self._receive, QUEUE_DEPTH, event_callbacks=QUIET
+        )
 
     def _receive(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
         command = self._angle(message, self._joint)
@@ -113,4 +118,4 @@ def subscribe_speed(node: Node, target: SpeedInput) -> None:
                 throttle_time_source_type=STEADY,
             )
 
-    node.create_subscription(Float64, "speed", receive, QUEUE_DEPTH)
+    node.create_subscription(Float64, "speed", receive, QUEUE_DEPTH, event_callbacks=QUIET)

@@ -1,0 +1,203 @@
+import os
+import signal
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+
+from graph import Graph, stamps, stop, until, values
+from runs import PERIOD, recorded, run_directory
+from yawdamp_ros.cli import run
+
+pytestmark = pytest.mark.graph
+
+FLOOD = """
+import time, rclpy
+from std_msgs.msg import Float64
+rclpy.init()
+node = rclpy.create_node("flood")
+publisher = node.create_publisher(Float64, "steering", 10)
+while publisher.get_subscription_count() == 0:
+    time.sleep(0.01)
+time.sleep(0.3)
+start = time.monotonic()
+for index in range(10_000):
+    publisher.publish(Float64(data=0.1 * index / 10_000))
+    time.sleep(max(start + index / 10_000 - time.monotonic(), 0.0))
+while publisher.get_subscription_count():
+    publisher.publish(Float64(data=0.2))
+    time.sleep(0.1)
+"""
+SLEEPER = """
+import rclpy
+from sensor_msgs.msg import Imu, JointState
+rclpy.init()
+node = rclpy.create_node("sleeper")
+node.create_subscription(Imu, "truck/imu", lambda _: None, 10)
+node.create_subscription(JointState, "joint_states", lambda _: print("heard", flush=True), 10)
+rclpy.spin(node)
+"""
+STRANGER = """
+import rclpy
+from sensor_msgs.msg import JointState
+rclpy.init()
+node = rclpy.create_node("stranger")
+node.create_publisher(JointState, "steering", 10)
+rclpy.spin(node)
+"""
+CROWD = """
+import rclpy
+from std_msgs.msg import Float64
+from sensor_msgs.msg import Imu
+rclpy.init()
+for index in range(50):
+    node = rclpy.create_node(f"passer_by_{index}")
+    node.create_publisher(Float64, "speed", 10)
+    node.create_subscription(Imu, "truck/imu", lambda _: None, 10)
+    rclpy.spin_once(node, timeout_sec=0.01)
+    node.destroy_node()
+"""
+
+
+def started(graph: Graph, *arguments: str) -> Any:  # noqa: ANN401 - a process
+    graph.listen({"/truck/imu": Imu, "/joint_states": JointState})
+    process = graph.command("sim", *arguments)
+    more_samples(graph, 20)
+    return process
+
+
+def more_samples(graph: Graph, count: int) -> None:
+    before = len(graph.received["/truck/imu"])
+    until(lambda: len(graph.received["/truck/imu"]) >= before + count, f"{count} samples more")
+
+
+def script(graph: Graph, text: str) -> "subprocess.Popen[str]":
+    return subprocess.Popen(
+        [sys.executable, "-c", text], env=graph.environment, stdout=subprocess.PIPE, text=True
+    )
+
+
+def in_good_order(graph: Graph, process: Any) -> None:  # noqa: ANN401
+    """The node answers and is whole."""
+    assert graph.call("/yawdamp_sim/reset", Trigger, Trigger.Request()).success
+    whole(graph, process)
+
+
+def whole(graph: Graph, process: Any) -> None:  # noqa: ANN401
+    """The node ends when asked to, and what it recorded is whole and repeats."""
+    status, _, errors = stop(process)
+    assert status == 0
+    assert "Traceback" not in errors
+    path = run_directory(graph.directory)
+    found = stamps([message for _, message in recorded(path)["/truck/imu"]])
+    assert np.diff(found).tolist() == [PERIOD] * (len(found) - 1)
+    assert run(["resimulate", str(path)]) == 0
+
+
+def segments(maps: Path) -> set[Path]:
+    """Fast DDS's segments of shared memory in a process's map, but for the ports that all domains share."""
+    with suppress(OSError):  # of a process that has just ended
+        found = {Path(word) for word in maps.read_text().split() if "shm/fastrtps_" in word}
+        return {segment for segment in found if not segment.name.startswith("fastrtps_port700")}
+    return set()
+
+
+def test_ten_thousand_commands_a_second_steer_and_hold_nothing_up(graph: Graph) -> None:
+    process = started(graph)
+    flood = script(graph, FLOOD)
+    until(lambda: graph.messages("/joint_states")[-1].position[0] == 0.2, "the last command")
+    in_good_order(graph, process)
+    flood.communicate()
+    steering = [message.data for _, message in recorded(run_directory(graph.directory))["/steering"]]
+    assert len(steering) > 20
+    assert (np.diff(steering[:-1]) > 0.0).all()
+
+
+def test_subscribers_that_stopped_reading_hold_nothing_up(graph: Graph) -> None:
+    process = started(graph)
+    sleepers = [script(graph, SLEEPER) for _ in range(2)]
+    for sleeper in sleepers:
+        assert sleeper.stdout is not None
+        assert sleeper.stdout.readline() == "heard\n"
+        sleeper.send_signal(signal.SIGSTOP)
+    more_samples(graph, 100)
+    in_good_order(graph, process)
+    for sleeper in sleepers:
+        sleeper.kill()
+        sleeper.communicate()
+
+
+def test_a_hundred_nodes_come_and_go(graph: Graph) -> None:
+    process = started(graph)
+    crowds = [script(graph, CROWD) for _ in range(2)]
+    for crowd in crowds:
+        crowd.communicate()
+        assert crowd.returncode == 0
+    more_samples(graph, 20)
+    in_good_order(graph, process)
+
+
+def test_two_that_steer_at_once_are_named_in_diagnostics_and_once_in_the_log(graph: Graph) -> None:
+    process = started(graph)
+    statuses = graph.statuses()
+    first = graph.steering_publisher()
+    second = script(graph, FLOOD)
+    said = "/steering: 2 publish at once: /flood, /observer; the newest wins"
+    until(lambda: said in statuses("steering").message, "the warning")
+    assert statuses("steering").level == b"\1"
+    assert values(statuses("steering"))["publishers"] == "2"
+    more_samples(graph, 110)
+    second.kill()
+    second.communicate()
+    graph.node.destroy_publisher(first)
+    assert stop(process)[2].count(said) == 1
+
+
+def test_publishers_that_cannot_be_heard_are_named_with_the_reason(graph: Graph) -> None:
+    process = started(graph)
+    statuses = graph.statuses()
+    best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+    stranger = script(graph, STRANGER)
+    graph.node.create_publisher(Float64, "/steering", best_effort)
+    said = [
+        f"/steering: /{name} is not heard: {reason}"
+        for name, reason in (
+            ("stranger", "it publishes sensor_msgs/msg/JointState, expected std_msgs/msg/Float64"),
+            ("observer", "its QoS does not fit: Best effort publisher and reliable subscription"),
+        )
+    ]
+    until(lambda: all(text in statuses("steering").message for text in said), "the warnings")
+    assert statuses("steering").level == b"\1"
+    more_samples(graph, 110)
+    stranger.kill()
+    stranger.communicate()
+    errors = stop(process)[2]
+    assert [errors.count(text) for text in said] == [1, 1]
+    assert errors.count("QoS") == 1
+
+
+def test_shared_memory_that_is_removed_underneath_takes_neither_samples_nor_the_recording(
+    graph: Graph,
+) -> None:
+    process = started(graph)
+    ours = {str(os.getpid()), str(process.pid)}
+    elsewhere = {
+        segment
+        for maps in Path("/proc").glob("[0-9]*/maps")
+        if maps.parent.name not in ours
+        for segment in segments(maps)
+    }
+    removed = segments(Path(f"/proc/{process.pid}/maps")) - elsewhere
+    assert len(removed) > 1
+    for segment in removed:
+        segment.unlink()
+    more_samples(graph, 100)
+    whole(graph, process)

@@ -1,0 +1,84 @@
+"""Who publishes what the simulator listens to, and whether that fits."""
+
+from typing import Any, NamedTuple
+
+from rclpy.node import Node
+from rclpy.qos import QoSCompatibility, qos_check_compatible
+
+from yawdamp_ros.nodes.messages import type_name
+
+
+class Neighbourhood(NamedTuple):
+    """What was found at one look.
+
+    Attributes
+    ----------
+    publishers : int
+        On the inputs, heard or not.
+    problems : tuple of str
+    """
+
+    publishers: int
+    problems: tuple[str, ...]
+
+
+class Neighbours:
+    """Watches the publishers of a node's inputs; what does not fit is warned of once, when it comes.
+
+    DDS drops what does not fit without a word to either side's user, and of two that steer at once the
+    newest command wins, whose ever it is.
+
+    Parameters
+    ----------
+    node : Node
+    inputs : sequence of str
+        Topics as the node subscribes to them.
+    """
+
+    def __init__(self, node: Node, inputs: tuple[str, ...]) -> None:
+        self._node = node
+        self._inputs = {node.resolve_topic_name(name) for name in inputs}
+        self._known: tuple[str, ...] = ()
+
+    def look(self) -> Neighbourhood:
+        """Look around, and warn of what is new."""
+        publishers = 0
+        problems: list[str] = []
+        for subscription in self._node.subscriptions:
+            if subscription.topic_name in self._inputs:
+                found = self._node.get_publishers_info_by_topic(subscription.topic_name)
+                publishers += len(found)
+                problems += _problems(subscription, found)
+        for problem in problems:
+            if problem not in self._known:
+                self._node.get_logger().warning(problem)
+        self._known = tuple(problems)
+        return Neighbourhood(publishers, self._known)
+
+
+def _problems(subscription: Any, publishers: list[Any]) -> list[str]:  # noqa: ANN401 - rclpy's are untyped
+    problems = []
+    heard = []
+    for publisher in publishers:
+        if mismatch := _mismatch(subscription, publisher):
+            problems.append(f"{subscription.topic_name}: {_name(publisher)} is not heard: {mismatch}")
+        else:
+            heard.append(_name(publisher))
+    if len(heard) > 1:
+        names = ", ".join(sorted(heard))
+        problems.append(f"{subscription.topic_name}: {len(heard)} publish at once: {names}; the newest wins")
+    return problems
+
+
+def _mismatch(subscription: Any, publisher: Any) -> str:  # noqa: ANN401
+    wanted = type_name(subscription.msg_type)
+    if publisher.topic_type != wanted:
+        return f"it publishes {publisher.topic_type}, expected {wanted}"
+    compatibility, reason = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
+    if compatibility == QoSCompatibility.ERROR:
+        return f"its QoS does not fit: {reason.removeprefix('ERROR: ').rstrip(';')}"
+    return ""
+
+
+def _name(publisher: Any) -> str:  # noqa: ANN401
+    return f"{publisher.node_namespace.rstrip('/')}/{publisher.node_name}"
