@@ -33,19 +33,20 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
     with ros_graph(ros_arguments):
         node = SimNode(_overrides(options))
         try:
-            _run(node, stop)
+            served = _run(node, stop)
         finally:
             node.close()
         _report(node)
-    return 1 if node.stopped or node.recorder.failure is not None or node.recorder.lost else 0
+    good = served and not node.stopped and node.recorder.failure is None and not node.recorder.lost
+    return 0 if good else 1
 
 
-def _run(node: "SimNode", stop: StopRequest) -> None:
+def _run(node: "SimNode", stop: StopRequest) -> bool:
     from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
     from yawdamp_ros.nodes.graph import spin  # noqa: PLC0415
 
     if stop.requested:
-        return
+        return True
     node.start()
     with progress_bar() as bar:
         task = bar.add_task("simulating", total=node.settings.duration, visible=bool(node.settings.duration))
@@ -53,7 +54,7 @@ def _run(node: "SimNode", stop: StopRequest) -> None:
         def progress() -> None:
             bar.update(task, completed=node.simulated_time)
 
-        spin(node, stop, lambda: node.finished, progress)
+        return spin(node, stop, lambda: node.finished, progress)
 
 
 def _report(node: "SimNode") -> None:

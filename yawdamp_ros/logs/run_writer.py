@@ -209,7 +209,7 @@ class RunWriter:
     def _check_place(self) -> None:
         # To write to a file that was removed succeeds, and keeps nothing.
         if self._file is not None and not os.fstat(self._file.fileno()).st_nlink:
-            self._taken = self._flushed = 0
+            self._flushed = 0
             raise FileNotFoundError(errno.ENOENT, "the file was removed while it was written")
 
     def _close_file(self) -> None:

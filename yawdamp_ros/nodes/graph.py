@@ -17,8 +17,8 @@ from yawdamp_ros.files import read_text
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.stop_request import StopRequest
 
-SPIN_PERIOD = 0.1
-"""Longest time in s that a stop request waits for the executor."""
+SPIN_PERIOD = 0.05
+"""Longest time in s that the executor waits on end."""
 
 LARGEST_PARAMETER_FILE = 1 << 17
 """Characters."""
@@ -56,16 +56,38 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
         rclpy.try_shutdown()
 
 
-def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: Callable[[], None]) -> None:
-    """Serve a node until it has finished or is asked to stop."""
+def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: Callable[[], None]) -> bool:
+    """Serve a node until it has finished or is asked to stop; return False if its ROS context went before."""
     executor = SingleThreadedExecutor()
     executor.add_node(node)
+    ended = threading.Event()
+    waker = threading.Thread(target=_wake, args=(executor, ended), name="waker")
+    waker.start()
     try:
         while not (stop.requested or finished()):
             executor.spin_once(timeout_sec=SPIN_PERIOD)
             progress()
+    except Exception:  # rclpy raises its own types here, by where the node was when the context went
+        if node.context.ok():
+            raise
+        node.get_logger().error("the ROS context was shut down underneath the node")
+        return False
+    else:
+        return True
     finally:
+        ended.set()
+        waker.join()
         executor.shutdown()
+
+
+def _wake(executor: SingleThreadedExecutor, ended: threading.Event) -> None:
+    """End the executor's waits again and again.
+
+    Where Fast DDS is built for an old glibc, as on PyPI, it waits by the system's clock: a wait in which that
+    clock jumps back would last until something happens, or as long as the jump. Python's go by a steady one.
+    """
+    while not ended.wait(SPIN_PERIOD):
+        executor.wake()
 
 
 @contextmanager

@@ -146,7 +146,8 @@ class SimNode(Node):
         if self.recorder.lost or self.recorder.failure is not None:
             reason = f"{self.recorder.failure}; " if self.recorder.failure is not None else ""
             self.get_logger().error(f"{reason}{self.recorder.lost} messages not recorded")
-        self._outputs.wait_for_subscribers()
+        if self.context.ok():
+            self._outputs.wait_for_subscribers()
 
     def _on_timer(self) -> None:
         due = self._pacer.due(time.monotonic_ns())

@@ -1,0 +1,148 @@
+import math
+import shutil
+import struct
+import subprocess
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Float64, Header
+from std_srvs.srv import Trigger
+
+from graph import Graph, stamps, stop, until, values
+from runs import PERIOD, recorded, run_directory
+from yawdamp_ros.cli import run
+
+pytestmark = pytest.mark.graph
+
+HOUR = 3600 * 10**9
+
+
+def more_samples(graph: Graph, count: int) -> None:
+    before = len(graph.received["/truck/imu"])
+    until(lambda: len(graph.received["/truck/imu"]) >= before + count, f"{count} samples more")
+
+
+class SystemClock:
+    """The system clock as one process sees it: it can jump without disturbing any other."""
+
+    def __init__(self, directory: Path) -> None:
+        compiler = shutil.which("cc")
+        if compiler is None:
+            pytest.skip("there is no C compiler for a clock that can jump")
+        library, self._file = directory / "system_clock.so", directory / "clock"
+        source = Path(__file__).with_name("system_clock.c")
+        subprocess.run([compiler, "-shared", "-fPIC", "-o", library, source, "-ldl"], check=True)
+        self._file.write_bytes(bytes(8))
+        self.offset = 0
+        self.environment = {"LD_PRELOAD": str(library), "SYSTEM_CLOCK_FILE": str(self._file)}
+
+    def jump(self, hours: int) -> None:
+        """Let it be off by some hours from now on."""
+        self.offset = hours * HOUR
+        with self._file.open("r+b") as file:
+            file.write(struct.pack("@q", 3600 * hours))
+
+    def is_seen(self, graph: Graph) -> bool:
+        """Whether the node's newest diagnostics are stamped by the clock as it is now."""
+        found = stamps(graph.messages("/diagnostics"))
+        return bool(found) and abs(found[-1] - self.offset - time.time_ns()) < HOUR // 2
+
+
+def joint_state(angle: float, stamp: int) -> JointState:
+    header = Header(stamp=Time(sec=stamp // 10**9, nanosec=stamp % 10**9))
+    return JointState(header=header, name=["steering"], position=[angle])
+
+
+def started(graph: Graph, *parameters: str) -> Any:  # noqa: ANN401 - a process
+    graph.listen({"/truck/imu": Imu, "/joint_states": JointState})
+    arguments = [word for parameter in parameters for word in ("-p", parameter)]
+    process = graph.command("sim", "--ros-args", *arguments)
+    more_samples(graph, 20)
+    return process
+
+
+def test_jumps_of_the_system_clock_move_neither_time_nor_rate(graph: Graph) -> None:
+    clock = SystemClock(graph.directory)
+    graph.environment |= clock.environment
+    graph.listen({"/diagnostics": DiagnosticArray})
+    process = started(graph, "steering_type:=sensor_msgs/msg/JointState")
+    statuses = graph.statuses()
+    publisher = graph.publisher(JointState, "/steering")
+    for index, hours in enumerate((1, -1, 0), 1):
+        clock.jump(hours)
+        until(lambda: clock.is_seen(graph), "the jump, in the stamps of diagnostics")
+        # A command is held against the clock as it is now; one by the clock as it was is not of now.
+        publisher.publish(joint_state(0.01 * index, time.time_ns() + clock.offset))
+        until(
+            lambda index=index: graph.messages("/joint_states")[-1].position[0] == 0.01 * index,
+            "the command",
+        )
+        publisher.publish(joint_state(0.5, time.time_ns() + clock.offset + HOUR))
+        until(
+            lambda index=index: (
+                values(statuses("steering"))["refused,_its_stamp_is_not_of_now"] == str(index)
+            ),
+            "the refusal, in diagnostics that go on",
+        )
+        assert graph.call("/yawdamp_sim/reset", Trigger, Trigger.Request()).success
+    assert stop(process)[0] == 0
+    path = run_directory(graph.directory)
+    found = stamps([message for _, message in recorded(path)["/truck/imu"]])
+    assert np.diff(found).tolist() == [PERIOD] * (len(found) - 1)
+    assert run(["resimulate", str(path)]) == 0
+
+
+def test_jumps_back_of_the_system_clock_hold_nothing_up(graph: Graph) -> None:
+    clock = SystemClock(graph.directory)
+    graph.environment |= clock.environment
+    process = started(graph)
+    statuses = graph.statuses()
+    for hours in range(1, 11):
+        clock.jump(-hours)
+        more_samples(graph, 20)
+    until(lambda: float(values(statuses("timing"))["simulated_time"].removesuffix(" s")) > 2.0, "a look")
+    # Without care, a wait by that clock would last until something else happens, seconds or an hour.
+    assert int(values(statuses("timing"))["steps_given_up"]) < 1000
+    assert stop(process)[0] == 0
+
+
+def test_a_jump_back_of_the_system_clock_silences_no_warning(graph: Graph) -> None:
+    clock = SystemClock(graph.directory)
+    graph.environment |= clock.environment
+    graph.listen({"/diagnostics": DiagnosticArray})
+    process = started(graph, "speed_source:=topic")
+    publisher = graph.publisher(Float64, "/speed")
+    statuses = graph.statuses()
+
+    def refuse(count: int) -> None:
+        publisher.publish(Float64(data=math.nan))
+        until(lambda: values(statuses("steering"))["speed_refused"] == str(count), "the refusal")
+
+    refuse(1)
+    clock.jump(-1)
+    until(lambda: clock.is_seen(graph), "the jump, in the stamps of diagnostics")
+    more_samples(graph, 510)  # longer than warnings of one kind are apart
+    refuse(2)
+    status, _, errors = stop(process)
+    assert status == 0
+    assert "speed: nan: refused or clamped, 2 refused" in errors
+
+
+def test_use_sim_time_without_a_clock_is_warned_of_and_changes_nothing(graph: Graph) -> None:
+    process = started(graph, "use_sim_time:=true")
+    statuses = graph.statuses()
+    until(lambda: statuses("timing").message == "in time", "diagnostics")
+    assert values(statuses("timing"))["wanted_rate"] == "100.00 Hz"
+    assert graph.call("/yawdamp_sim/reset", Trigger, Trigger.Request()).success
+    graph.steering_publisher().publish(Float64(data=0.1))
+    until(lambda: graph.messages("/joint_states")[-1].position[0] == 0.1, "the command")
+    status, _, errors = stop(process)
+    assert status == 0
+    assert "use_sim_time: not followed" in errors
+    assert run(["resimulate", str(run_directory(graph.directory))]) == 0
