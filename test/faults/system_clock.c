@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
@@ -51,6 +52,19 @@ time_t time(time_t *time)
     return now.tv_sec;
 }
 
+/* Time in ns until an instant of this clock, and the same instant, or the next look, by the machine's. */
+static long long left_until(const struct timespec *until, struct timespec *look)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    long long left = (until->tv_sec - now.tv_sec) * SECOND + until->tv_nsec - now.tv_nsec;
+    syscall(SYS_clock_gettime, CLOCK_REALTIME, look);
+    long long end = look->tv_sec * SECOND + look->tv_nsec + (left > LOOK ? LOOK : left > 0 ? left : 0);
+    look->tv_sec = end / SECOND;
+    look->tv_nsec = end % SECOND;
+    return left;
+}
+
 int pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *mutex, const struct timespec *until)
 {
     static int (*wait)(pthread_cond_t *, pthread_mutex_t *, const struct timespec *);
@@ -59,16 +73,25 @@ int pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *mutex, co
     if (condition->__data.__wrefs & STEADY_CLOCK)
         return wait(condition, mutex, until);
     for (;;) {
-        struct timespec now, look;
-        clock_gettime(CLOCK_REALTIME, &now);
-        long long left = (until->tv_sec - now.tv_sec) * SECOND + until->tv_nsec - now.tv_nsec;
-        long long part = left > LOOK ? LOOK : left > 0 ? left : 0;
-        syscall(SYS_clock_gettime, CLOCK_REALTIME, &look);
-        long long end = look.tv_sec * SECOND + look.tv_nsec + part;
-        look.tv_sec = end / SECOND;
-        look.tv_nsec = end % SECOND;
+        struct timespec look;
+        long long left = left_until(until, &look);
         int status = wait(condition, mutex, &look);
-        if (status != ETIMEDOUT || left <= part)
+        if (status != ETIMEDOUT || left <= LOOK)
             return status;
+    }
+}
+
+int sem_timedwait(sem_t *semaphore, const struct timespec *until)
+{
+    static int (*wait)(sem_t *, const struct timespec *);
+    if (!wait)
+        wait = dlsym(RTLD_NEXT, "sem_timedwait");
+    for (;;) {
+        struct timespec look;
+        long long left = left_until(until, &look);
+        if (wait(semaphore, &look) == 0)
+            return 0;
+        if (errno != ETIMEDOUT || left <= LOOK)
+            return -1;
     }
 }
