@@ -1,11 +1,18 @@
 """Who publishes what the simulator listens to, and whether that fits."""
 
+from contextlib import suppress
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
 
 from yawdamp_ros.nodes.messages import type_name
+
+CUT_OFF = (
+    "the shared memory of Fast DDS was removed: who comes from now on can neither steer nor hear this node; "
+    "start it again"
+)
 
 
 class Neighbourhood(NamedTuple):
@@ -43,7 +50,7 @@ class Neighbours:
     def look(self) -> Neighbourhood:
         """Look around, and warn of what is new."""
         publishers = 0
-        problems: list[str] = []
+        problems = [CUT_OFF] if _is_cut_off() else []
         for subscription in self._node.subscriptions:
             if subscription.topic_name in self._inputs:
                 found = self._node.get_publishers_info_by_topic(subscription.topic_name)
@@ -54,6 +61,16 @@ class Neighbours:
                 self._node.get_logger().warning(problem)
         self._known = tuple(problems)
         return Neighbourhood(publishers, self._known)
+
+
+def _is_cut_off() -> bool:
+    """Whether files that this process holds for Fast DDS have gone, as when /dev/shm is tidied up."""
+    for descriptor in Path("/proc/self/fd").iterdir():
+        with suppress(OSError):  # closed by now
+            name = descriptor.readlink().name
+            if name.startswith("fastrtps_") and name.endswith(" (deleted)"):
+                return True
+    return False
 
 
 def _problems(subscription: Any, publishers: list[Any]) -> list[str]:  # noqa: ANN401 - rclpy's are untyped
