@@ -3,6 +3,7 @@ import shutil
 import struct
 import subprocess
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -75,6 +76,8 @@ def ended(graph: Graph, process: Any) -> str:  # noqa: ANN401
     process.terminate()
     metadata = run_directory(graph.directory) / "metadata.yaml"
     until(metadata.is_file, "the end of the recording")
+    with suppress(subprocess.TimeoutExpired):
+        process.wait(10.0)
     process.kill()
     return str(process.communicate()[1])
 
