@@ -82,6 +82,6 @@ class BackgroundWriter:
                 if messages is None:
                     return
                 self._writer.write(messages)
-                    if time.monotonic() >= flush_at:
+            if time.monotonic() >= flush_at:
                 self._writer.flush()
                 flush_at = time.monotonic() + FLUSH_PERIOD
