@@ -6,7 +6,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: help setup sim test test-fast soak lint reproduction parameters lock clean
+.PHONY: help setup sim test test-fast soak bench bench-memory lint reproduction parameters lock clean
 
 help:  ## say what the targets do
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -33,6 +33,12 @@ test-fast: setup  ## run the tests that need no ROS graph
 
 soak: setup  ## run the long tests, about twenty minutes; each says what it saw
 	@$(BIN)/python -m pytest test/soak
+
+bench: setup  ## measure the ratios of the README's performance section, about ten minutes on an idle machine
+	@$(BIN)/python bench/run.py
+
+bench-memory: setup  ## measure the node's memory over ten minutes at 1 kHz
+	@$(BIN)/python bench/run.py memory
 
 lint: setup  ## ruff, mypy and the layering
 	@$(BIN)/ruff check .

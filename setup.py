@@ -64,6 +64,8 @@ setup(
             "rosbags",
             'atheris; python_version < "3.12"',  # fuzzes; its newest wheels are for Python 3.11
         ],
+        # Repeats in several processes, and keeps every value; psutil and rosbags come with the tests.
+        "bench": ["pyperf"],
         "lint": ["ruff", "mypy", "import-linter"],
         "colcon": ["colcon-core", "colcon-ros"],
     },

@@ -137,3 +137,13 @@ def start(peer: Peer, command: Sequence[str], directory: Path) -> float:
     peer.node.destroy_subscription(subscription)
     time.sleep(0.2)
     return took
+
+
+def memory(directory: Path) -> tuple[float, float]:
+    """Resident memory in MB of a node that records at 1 kHz, after one minute and after ten."""
+    with running([*SIM, "--publish-rate", "1000"], directory) as process:
+        probe, found = psutil.Process(process.pid), []
+        for seconds in (60.0, 540.0):
+            time.sleep(seconds)
+            found.append(probe.memory_info().rss / 1e6)
+    return found[0], found[1]

@@ -3,8 +3,9 @@
 The names below load on first use, so that a command that needs little starts fast.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from yawdamp_ros.lazy import load_on_use
 
 if TYPE_CHECKING:
     from yawdamp_ros.dynamics import linear_model
@@ -13,15 +14,11 @@ if TYPE_CHECKING:
 
 __all__ = ["linear_model", "load_vehicle", "simulate"]
 
-_ROOMS = {
-    "linear_model": "yawdamp_ros.dynamics",
-    "load_vehicle": "yawdamp_ros.vehicle",
-    "simulate": "yawdamp_ros.stepping",
-}
-
-
-def __getattr__(name: str) -> object:
-    if name in _ROOMS:
-        return getattr(import_module(_ROOMS[name]), name)
-    message = f"module {__name__!r} has no attribute {name!r}"
-    raise AttributeError(message)
+__getattr__ = load_on_use(
+    __name__,
+    {
+        "yawdamp_ros.dynamics": ("linear_model",),
+        "yawdamp_ros.stepping": ("simulate",),
+        "yawdamp_ros.vehicle": ("load_vehicle",),
+    },
+)

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from yawdamp_ros.dynamics import linear_model
-from yawdamp_ros.vehicle import builtin_vehicles, load_vehicle
+from yawdamp_ros.plain_yaml import parse_yaml
+from yawdamp_ros.vehicle import builtin_vehicles, load_vehicle, vehicle_text
+from yawdamp_ros.vehicle.load import MOST_VALUES
+from yawdamp_ros.vehicle.schema import check_schema
 
 INTERLINK = load_vehicle("interlink")
 
@@ -22,6 +25,11 @@ def test_builtins_are_those_of_the_contract() -> None:
         "single_vehicle",
         "truck_trailer",
     }
+
+
+@pytest.mark.parametrize("name", builtin_vehicles())
+def test_builtins_keep_to_the_schema(name: str) -> None:
+    check_schema(parse_yaml(vehicle_text(name), MOST_VALUES), name)
 
 
 def test_quarter_stiffness_differs_from_the_interlink_in_that_alone() -> None:

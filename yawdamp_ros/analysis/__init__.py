@@ -3,8 +3,9 @@
 The names below load on first use: some need much of SciPy, which a node that starts does not.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from yawdamp_ros.lazy import load_on_use
 
 if TYPE_CHECKING:
     from yawdamp_ros.analysis.assessment import Finding, assess, failed
@@ -95,38 +96,49 @@ __all__ = [
     "zero_damping_speed",
 ]
 
-_MODULES = {
-    "assessment": ("Finding", "assess", "failed"),
-    "boundaries": (
-        "SPEEDS",
-        "Boundary",
-        "critical_speed",
-        "find_boundaries",
-        "speed_boundaries",
-        "zero_damping_speed",
-    ),
-    "errors": ("AnalysisError",),
-    "lane_change": ("SAE_J2179", "SAE_J2179_SPEED", "SingleLaneChange", "run_lane_change", "steer_axle"),
-    "locus": ("Locus", "eigenvalue_locus"),
-    "measures": ("MEASURES", "Level", "Measure"),
-    "modes": ("Mode", "growth", "least_damping_ratio", "modes", "rightmost"),
-    "offtracking": ("axle_path", "high_speed_transient_offtracking", "steady_offtracking"),
-    "rearward_amplification": (
-        "PeakAmplification",
-        "amplification_at",
-        "peak_amplification",
-        "rearward_amplification",
-    ),
-    "steady_turn": ("SteadyTurn", "Steering", "static_gains", "steady_steering", "steady_turn"),
-    "transfer_function": ("TransferFunction", "transfer_function"),
-    "variation": ("Variation", "parse_variation"),
-    "yaw_damping": ("pulse_decay", "yaw_damping_coefficient"),
-}
-
-
-def __getattr__(name: str) -> object:
-    for module, names in _MODULES.items():
-        if name in names:
-            return getattr(import_module(f"{__name__}.{module}"), name)
-    message = f"module {__name__!r} has no attribute {name!r}"
-    raise AttributeError(message)
+__getattr__ = load_on_use(
+    __name__,
+    {
+        "yawdamp_ros.analysis.assessment": ("Finding", "assess", "failed"),
+        "yawdamp_ros.analysis.boundaries": (
+            "SPEEDS",
+            "Boundary",
+            "critical_speed",
+            "find_boundaries",
+            "speed_boundaries",
+            "zero_damping_speed",
+        ),
+        "yawdamp_ros.analysis.errors": ("AnalysisError",),
+        "yawdamp_ros.analysis.lane_change": (
+            "SAE_J2179",
+            "SAE_J2179_SPEED",
+            "SingleLaneChange",
+            "run_lane_change",
+            "steer_axle",
+        ),
+        "yawdamp_ros.analysis.locus": ("Locus", "eigenvalue_locus"),
+        "yawdamp_ros.analysis.measures": ("MEASURES", "Level", "Measure"),
+        "yawdamp_ros.analysis.modes": ("Mode", "growth", "least_damping_ratio", "modes", "rightmost"),
+        "yawdamp_ros.analysis.offtracking": (
+            "axle_path",
+            "high_speed_transient_offtracking",
+            "steady_offtracking",
+        ),
+        "yawdamp_ros.analysis.rearward_amplification": (
+            "PeakAmplification",
+            "amplification_at",
+            "peak_amplification",
+            "rearward_amplification",
+        ),
+        "yawdamp_ros.analysis.steady_turn": (
+            "SteadyTurn",
+            "Steering",
+            "static_gains",
+            "steady_steering",
+            "steady_turn",
+        ),
+        "yawdamp_ros.analysis.transfer_function": ("TransferFunction", "transfer_function"),
+        "yawdamp_ros.analysis.variation": ("Variation", "parse_variation"),
+        "yawdamp_ros.analysis.yaw_damping": ("pulse_decay", "yaw_damping_coefficient"),
+    },
+)

@@ -42,11 +42,13 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
 
 
 def _run(node: "SimNode", stop: StopRequest) -> bool:
+    if stop.requested:
+        return True
+    # What comes next takes a while to import, which neither the first sample nor the clock waits for.
+    node.publish_first()
     from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
     from yawdamp_ros.nodes.graph import spin  # noqa: PLC0415
 
-    if stop.requested:
-        return True
     node.start()
     with progress_bar() as bar:
         task = bar.add_task("simulating", total=node.settings.duration, visible=bool(node.settings.duration))

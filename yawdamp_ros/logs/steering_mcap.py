@@ -1,34 +1,15 @@
 """Steering logs in recordings: found by topic or by type, decoded by the definitions in the file."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder, RecordedMessage
 from yawdamp_ros.logs.steering_log import LARGEST_ANGLE, SteeringLog
+from yawdamp_ros.logs.steering_messages import STEERING_TYPES, message_stamp
 from yawdamp_ros.stepping.time_grid import SECOND
-
-
-def _joint_angle(message: Any, joint: str) -> float | None:  # noqa: ANN401 - made from a definition
-    names = list(message.name)
-    if joint not in names or len(message.position) != len(names):
-        return None
-    return float(message.position[names.index(joint)])
-
-
-STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyType(
-    {
-        "std_msgs/msg/Float64": lambda message, _: float(message.data),
-        "sensor_msgs/msg/JointState": _joint_angle,
-        "ackermann_msgs/msg/AckermannDriveStamped": lambda message, _: float(message.drive.steering_angle),
-        "autoware_control_msgs/msg/Lateral": lambda message, _: float(message.steering_tire_angle),
-        "autoware_control_msgs/msg/Control": lambda message, _: float(message.lateral.steering_tire_angle),
-    }
-)
-"""Types that can hold steering, each with the way to its angle in rad, left positive."""
 
 LATEST = 2**31 * SECOND
 """In ns: the seconds of a stamp are 32 bits."""
@@ -129,12 +110,6 @@ def _steering_log(  # noqa: PLR0913 - it gathers what was found
     # Divided, not multiplied: so a time is the same float as that of a step at the same nanosecond.
     times = [(stamp - stamps[0]) / SECOND for stamp in stamps]
     return SteeringLog(str(path), times, angles, start_time=stamps[0], warning=warning)
-
-
-def message_stamp(message: Any) -> int:  # noqa: ANN401 - made from a definition
-    """Stamp of a message in ns; 0 where it has none."""
-    stamp = getattr(getattr(message, "header", message), "stamp", None)
-    return 0 if stamp is None else int(stamp.sec) * SECOND + int(stamp.nanosec)
 
 
 def _listed(names: Any, limit: int = 12) -> str:  # noqa: ANN401 - any names

@@ -65,7 +65,7 @@ def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: 
     waker.start()
     try:
         while not (stop.requested or finished()):
-            executor.spin_once(timeout_sec=SPIN_PERIOD)
+            executor.spin_once()  # a time limit of its own would cost it a timer at every wake-up
             progress()
     except Exception:  # rclpy raises its own types here, by where the node was when the context went
         if node.context.ok():

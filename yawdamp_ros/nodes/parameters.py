@@ -12,7 +12,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from yawdamp_ros.dynamics import LOWEST_SPEED, MODELS
-from yawdamp_ros.logs.steering_mcap import STEERING_TYPES
+from yawdamp_ros.logs.steering_messages import STEERING_TYPES
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.nodes.errors import NodeError
 

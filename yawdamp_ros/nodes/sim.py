@@ -96,12 +96,10 @@ class SimNode(Node):
         if self.settings.speed_source == "topic":
             subscribe_speed(self, self._speed)
         self._outputs = Outputs(self, self.model.vehicle, self.settings)
-        if self.get_parameter("use_sim_time").value:
-            self.get_logger().warning("use_sim_time: not followed, for this node makes the time")
         self._start_time = time.time_ns()
         self.recorder = Recorder(self._open_run)
         if self.settings.record:
-            self._start_recording(self._run_directory())
+            self.recorder.start(self._run_directory())
 
     @property
     def finished(self) -> bool:
@@ -115,15 +113,22 @@ class SimNode(Node):
         """Simulated time since the start in s."""
         return self.grid.seconds(self._stepper.step)
 
-    def start(self) -> None:
-        """Publish the first sample; from now on the steady clock counts."""
-        if self.settings.publish_tf and self._outputs.without_tf:
-            self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
+    def publish_first(self) -> None:
+        """Publish the first sample, then say what there is to be said: rclpy's first word takes long."""
+        self._publish(steps=0)
         if growing := growth(self.model):
             self.get_logger().warning(
                 f"{self.model.vehicle.name} is unstable at {self.model.speed:g} m/s: {growing}"
             )
-        self._publish(steps=0)
+        if self.recorder.directory is not None:
+            self.get_logger().info(f"recording to {self.recorder.directory}")
+        if self.settings.publish_tf and self._outputs.without_tf:
+            self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
+        if self.get_parameter("use_sim_time").value:
+            self.get_logger().warning("use_sim_time: not followed, for this node makes the time")
+
+    def start(self) -> None:
+        """Begin to serve: from now on the steady clock counts."""
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
         self._pacer = Pacer(self.grid.period_ns, self.settings.real_time_factor, time.monotonic_ns())
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -270,7 +275,8 @@ class SimNode(Node):
     def _on_record(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         try:
             if request.data:
-                self._start_recording(unused(self._run_directory()))
+                self.recorder.start(unused(self._run_directory()))
+                self.get_logger().info(f"recording to {self.recorder.directory}")
             else:
                 self.recorder.stop()
         except YawdampError as error:
@@ -282,10 +288,6 @@ class SimNode(Node):
     def _run_directory(self) -> Path:
         wanted = self.settings.record_directory
         return Path(wanted) if wanted else default_run_directory(self.model.vehicle.name)
-
-    def _start_recording(self, directory: Path) -> None:
-        self.recorder.start(directory)
-        self.get_logger().info(f"recording to {directory}")
 
     def _open_run(self, directory: Path) -> RunWriter:
         return open_run(

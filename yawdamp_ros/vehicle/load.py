@@ -1,16 +1,12 @@
 """Vehicle files: read, overridden, checked, and turned into a `Vehicle`."""
 
-import json
-import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from jsonschema import Draft202012Validator, ValidationError
 
 from yawdamp_ros.files import read_text
 from yawdamp_ros.plain_yaml import parse_yaml
@@ -121,7 +117,8 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
         If the text or an override is not valid.
     """
     data = _overridden(text, source, overrides)
-    _check_schema(data, source)
+    if overrides or not _is_builtin(text, source):
+        _check_schema(data, source)
     _check_combination(data, source)
     return _build(data, source)
 
@@ -174,10 +171,15 @@ def _builtin_directory() -> Path:
     return share_directory() / "config" / "vehicles"
 
 
-@cache
-def _validator() -> Draft202012Validator:
-    schema = share_directory() / "config" / "vehicle.schema.json"
-    return Draft202012Validator(json.loads(schema.read_text(encoding="utf-8")))
+def _is_builtin(text: str, source: str) -> bool:
+    # Known to be valid, and what is to check it takes longer to import than a whole node to start.
+    return source in builtin_vehicles() and vehicle_text(source) == text
+
+
+def _check_schema(data: Any, source: str) -> None:  # noqa: ANN401
+    from yawdamp_ros.vehicle.schema import check_schema  # noqa: PLC0415
+
+    check_schema(data, source)
 
 
 def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until it is checked
@@ -199,43 +201,6 @@ def _set(data: Any, key: str, value: Any, source: str) -> None:  # noqa: ANN401
             node[last] = value
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise VehicleError(source, key, "no such key to set") from error
-
-
-def _check_schema(data: Any, source: str) -> None:  # noqa: ANN401
-    # First, for infinities and integers too long for a float make no good messages.
-    for key, value in _numbers(data, ""):
-        if abs(value) > 1e300 or math.isnan(value):  # noqa: PLR2004
-            shown = value if isinstance(value, float) else "a very long number"
-            raise VehicleError(source, key, f"{shown}: expected a finite number")
-    errors = sorted(_validator().iter_errors(data), key=lambda error: list(map(str, error.path)))
-    if errors:
-        raise _schema_error(errors[0], source)
-
-
-def _schema_error(error: ValidationError, source: str) -> VehicleError:
-    key = ".".join(map(str, error.path))
-    if error.validator == "additionalProperties":
-        known = error.schema["properties"]
-        unknown = next(name for name in error.instance if name not in known)
-        return VehicleError(
-            source, _join(key, str(unknown)), f"unknown key; expected one of {', '.join(known)}"
-        )
-    if error.validator == "required":
-        missing = next(name for name in error.validator_value if name not in error.instance)
-        return VehicleError(source, _join(key, missing), "missing")
-    shown = _shorten(repr(error.instance))
-    return VehicleError(source, key, f"{shown}: expected {error.schema['description']}")
-
-
-def _numbers(node: Any, key: str) -> Iterator[tuple[str, float]]:  # noqa: ANN401
-    if isinstance(node, dict):
-        for name, child in node.items():
-            yield from _numbers(child, _join(key, str(name)))
-    elif isinstance(node, list):
-        for index, child in enumerate(node):
-            yield from _numbers(child, _join(key, str(index)))
-    elif isinstance(node, int | float):
-        yield key, node
 
 
 def _build(data: dict[str, Any], source: str) -> Vehicle:
@@ -378,11 +343,3 @@ def _first(bad: Any, *values: Any) -> list[float] | None:  # noqa: ANN401
 
 def _number(value: Any) -> Any:  # noqa: ANN401
     return value if isinstance(value, np.ndarray) else float(value)
-
-
-def _join(key: str, name: str) -> str:
-    return f"{key}.{name}" if key else name
-
-
-def _shorten(text: str, limit: int = 60) -> str:
-    return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -1,0 +1,29 @@
+"""Packages whose names load on first use."""
+
+from collections.abc import Callable, Mapping, Sequence
+from importlib import import_module
+
+
+def load_on_use(package: str, modules: Mapping[str, Sequence[str]]) -> Callable[[str], object]:
+    """A package's ``__getattr__``, so that who needs one of its names does not wait for all.
+
+    Parameters
+    ----------
+    package : str
+        Its ``__name__``.
+    modules : mapping of str to sequence of str
+        Names by the module that holds them.
+
+    Returns
+    -------
+    callable
+    """
+    homes = {name: module for module, names in modules.items() for name in names}
+
+    def get(name: str) -> object:
+        if name in homes:
+            return getattr(import_module(homes[name]), name)
+        message = f"module {package!r} has no attribute {name!r}"
+        raise AttributeError(message)
+
+    return get

@@ -1,0 +1,70 @@
+"""The schema of vehicle files, and what is said of a file that does not keep to it."""
+
+import json
+import math
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+from jsonschema import Draft202012Validator, ValidationError
+
+from yawdamp_ros.share import share_directory
+from yawdamp_ros.vehicle.errors import VehicleError
+
+
+def check_schema(data: Any, source: str) -> None:  # noqa: ANN401
+    """Hold the data of a vehicle file to the schema.
+
+    Raises
+    ------
+    VehicleError
+        If they do not keep to it; the message names file, key, value and what was expected.
+    """
+    # First, for infinities and integers too long for a float make no good messages.
+    for key, value in _numbers(data, ""):
+        if abs(value) > 1e300 or math.isnan(value):  # noqa: PLR2004
+            shown = value if isinstance(value, float) else "a very long number"
+            raise VehicleError(source, key, f"{shown}: expected a finite number")
+    errors = sorted(_validator().iter_errors(data), key=lambda error: list(map(str, error.path)))
+    if errors:
+        raise _schema_error(errors[0], source)
+
+
+def _schema_error(error: ValidationError, source: str) -> VehicleError:
+    key = ".".join(map(str, error.path))
+    if error.validator == "additionalProperties":
+        known = error.schema["properties"]
+        unknown = next(name for name in error.instance if name not in known)
+        return VehicleError(
+            source, _join(key, str(unknown)), f"unknown key; expected one of {', '.join(known)}"
+        )
+    if error.validator == "required":
+        missing = next(name for name in error.validator_value if name not in error.instance)
+        return VehicleError(source, _join(key, missing), "missing")
+    shown = _shorten(repr(error.instance))
+    return VehicleError(source, key, f"{shown}: expected {error.schema['description']}")
+
+
+def _numbers(node: Any, key: str) -> Iterator[tuple[str, float]]:  # noqa: ANN401
+    if isinstance(node, dict):
+        for name, child in node.items():
+            yield from _numbers(child, _join(key, str(name)))
+    elif isinstance(node, list):
+        for index, child in enumerate(node):
+            yield from _numbers(child, _join(key, str(index)))
+    elif isinstance(node, int | float):
+        yield key, node
+
+
+@cache
+def _validator() -> Draft202012Validator:
+    schema = share_directory() / "config" / "vehicle.schema.json"
+    return Draft202012Validator(json.loads(schema.read_text(encoding="utf-8")))
+
+
+def _join(key: str, name: str) -> str:
+    return f"{key}.{name}" if key else name
+
+
+def _shorten(text: str, limit: int = 60) -> str:
+    return text if len(text) <= limit else text[: limit - 3] + "..."
