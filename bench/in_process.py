@@ -1,7 +1,5 @@
 """What runs within one process, timed by pyperf, which repeats each in several processes."""
 
-import os
-
 import control
 import numpy as np
 import pyperf
@@ -67,10 +65,7 @@ def eigenvalues(runner: pyperf.Runner) -> None:
 
 def main() -> None:
     """Measure; `-o FILE` keeps the figures."""
-    # One core for everybody: nothing here may win by a second one.
-    os.environ["OPENBLAS_NUM_THREADS"] = "1"
     runner = pyperf.Runner(processes=5, values=3, warmups=1)
-    runner.args.inherit_environ = ["OPENBLAS_NUM_THREADS"]
     offline(runner)
     step(runner)
     eigenvalues(runner)

@@ -13,9 +13,6 @@ LONGEST_BLOCK = 32
 LARGEST_PRODUCT = 9216
 """Elements from which OpenBLAS splits a product over threads, whose sums depend on how many there are."""
 
-LARGEST_YAW = 1e100
-"""In rad: an unstable motion grows until it has no numbers left."""
-
 
 class Propagator(NamedTuple):
     """A model at one speed, ready to be stepped.
@@ -35,26 +32,8 @@ class Propagator(NamedTuple):
     outputs: FloatArray
 
 
-class Start(NamedTuple):
-    """Where a block of steps starts from, and how many of its steps are meant.
-
-    Attributes
-    ----------
-    steps : int
-    yaw, remainder : float
-        Of the lead unit in rad: a number and what its rounding left over.
-    wrapped : float
-        The yaw without whole turns, rad.
-    """
-
-    steps: int
-    yaw: float
-    remainder: float
-    wrapped: float
-
-
 class Propagation:
-    """State and yaw of the lead unit in time, exact while the steering is held.
+    """State, and what the lead unit turns, in time: exact while the steering is held.
 
     Each step of a block is computed from the start of the block, all of them in one product, whose rows do
     not depend on how many of the steps are taken at once: the bits are the same however a run is cut.
@@ -74,7 +53,6 @@ class Propagation:
         self._after = np.zeros((self._block + 1, size + 1))
         self._product = self._after[1:].reshape(-1)
         self._taken = 0
-        self.start = Start(0, 0.0, 0.0, 0.0)
 
     @property
     def steering_angle(self) -> float:
@@ -90,26 +68,26 @@ class Propagation:
         """Copy of the model's state, shape (2 n,)."""
         return self._after[self._taken, :-1].copy()
 
-    def now(self) -> FloatArray:
-        """State, then the yaw of the lead unit since the block's `start`; shape (2 n + 1,)."""
-        return np.array(self._after[self._taken])
+    @property
+    def turned(self) -> float:
+        """What the lead unit has turned since the block's start, rad."""
+        return float(self._after[self._taken, -1])
 
-    def start_block(self) -> None:
-        """Let the steps to come be computed from this instant."""
-        now = self._after[self._taken]
-        self.stand(now[:-1], *_exact_sum(self.start.yaw, self.start.remainder + float(now[-1])))
+    def start_block(self) -> float:
+        """Let the steps to come be computed from this instant; return what was turned in the block."""
+        turned = self.turned
+        self.stand(self._after[self._taken, :-1])
+        return turned
 
-    def stand(self, state: FloatArray, yaw: float, remainder: float) -> None:
-        """Start a block in a state, with a yaw that is the sum of two numbers and the steering as it is."""
+    def stand(self, state: FloatArray) -> None:
+        """Start a block in a state, with the steering as it is."""
         self._state[:] = state
         self._after[0, :-1] = state
         self._after[0, -1] = 0.0
         self._angles[0] = self._angles[self._taken]
         self._taken = 0
-        wrapped = math.atan2(math.sin(yaw), math.cos(yaw)) if abs(yaw) <= LARGEST_YAW else math.nan
-        self.start = Start(0, yaw, remainder, wrapped)
 
-    def advance(self, angles: FloatArray, states: FloatArray) -> list[Start]:
+    def advance(self, angles: FloatArray, states: FloatArray) -> list[tuple[int, float]]:
         """Take a step for each of k steer angles.
 
         Parameters
@@ -117,38 +95,56 @@ class Propagation:
         angles : ndarray, shape (k,)
             Each in force from the instant after its step on, rad.
         states : ndarray, shape (k, 2 n + 1)
-            To be filled with the state after each step, and the yaw of the lead unit since the block's start.
+            To be filled with the state after each step, and what the lead unit has turned since the start of
+            its block.
 
         Returns
         -------
-        list of Start
-            Of the blocks that these steps lie in.
+        list of (int, float)
+            For each block that these steps lie in: how many of them do, and what the lead unit turned in the
+            block that ended before, rad; 0 if none did.
         """
-        starts: list[Start] = []
-        # What an unstable motion grows to is for the caller to judge.
-        with np.errstate(over="ignore", invalid="ignore"):
-            self._take(angles, states, starts)
-        return starts
-
-    def _take(self, angles: FloatArray, states: FloatArray, starts: list[Start]) -> None:
+        blocks: list[tuple[int, float]] = []
         done = 0
         while done < len(angles):
-            if self._taken == self._block:
-                self.start_block()
-            first = self._taken + 1
-            end = min(done + self._block - self._taken, len(angles))
-            self._taken += end - done
-            self._angles[first : self._taken + 1] = angles[done:end]
-            self.propagator.steps.dot(self._start, self._product)
-            states[done:end] = self._after[first : self._taken + 1]
-            starts.append(self.start._replace(steps=end - done))
+            turned = self.start_block() if self._taken == self._block else 0.0
+            left = len(angles) - done
+            if not self._taken and left >= self._block:
+                end = done + left // self._block * self._block
+                blocks.append((self._block, turned))
+                blocks += self._take_blocks(angles[done:end], states[done:end])
+            else:
+                first = self._taken + 1
+                end = done + min(self._block - self._taken, left)
+                self._taken += end - done
+                self._angles[first : self._taken + 1] = angles[done:end]
+                self.propagator.steps.dot(self._start, self._product)
+                states[done:end] = self._after[first : self._taken + 1]
+                blocks.append((end - done, turned))
             done = end
+        return blocks
+
+    def _take_blocks(self, angles: FloatArray, states: FloatArray) -> list[tuple[int, float]]:
+        """Take whole blocks from the start of one; return all but the first, which is the caller's."""
+        starting = np.append(self._angles[0], angles)
+        products = states.reshape(-1, len(self._product))
+        dot, start, state, held = self.propagator.steps.dot, self._start, self._state, self._angles
+        size, block = len(state), self._block
+        # What an unstable motion grows to is for the caller to judge.
+        with np.errstate(over="ignore", invalid="ignore"):
+            for index, product in enumerate(products):
+                held[:] = starting[index * block : (index + 1) * block + 1]
+                dot(start, product)
+                state[:] = product[-size - 1 : -1]
+        self._product[:] = products[-1]
+        self._taken = block
+        return [(block, turned) for turned in products[:-1, -1].tolist()]
 
 
 def propagator(model: LinearModel, step_size: float) -> Propagator:
     """Matrices of a model for steps of a size in s."""
     outputs = np.column_stack([model.output_matrix, model.feedthrough])
-    return Propagator(model, _steps(model, step_size), outputs)
+    return Propagator(model, _steps(model, step_size), np.asfortranarray(outputs))
 
 
 def outputs_of(known: Propagator, states_and_angle: FloatArray) -> FloatArray:
@@ -209,10 +205,3 @@ def exponential(matrix: FloatArray) -> FloatArray:
 def _block_length(size: int) -> int:
     fitting = [b for b in range(1, LONGEST_BLOCK + 1) if b * (size + 1) * (size + b + 1) < LARGEST_PRODUCT]
     return max(fitting, default=1)
-
-
-def _exact_sum(one: float, other: float) -> tuple[float, float]:
-    """Sum of two numbers, and what its rounding leaves over."""
-    total = one + other
-    back = total - one
-    return total, (one - (total - back)) + (other - back)

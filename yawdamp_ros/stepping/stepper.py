@@ -10,14 +10,9 @@ import numpy.typing as npt
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray, coupled_positions
 from yawdamp_ros.stepping.errors import SteppingError
-from yawdamp_ros.stepping.propagation import (
-    LARGEST_YAW,
-    Propagation,
-    Propagator,
-    outputs_of,
-    propagator,
-)
+from yawdamp_ros.stepping.propagation import Propagation, Propagator, outputs_of, propagator
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
+from yawdamp_ros.stepping.yaw import LARGEST_YAW, Yaw, YawParts
 
 KNOWN_SPEEDS = 128
 """Speeds whose matrices are kept."""
@@ -56,21 +51,9 @@ class Snapshot(NamedTuple):
 class _Motion(NamedTuple):
     """One instant, or k instants: yaw and position are of the lead unit."""
 
-    states: FloatArray
-    yaw: FloatArray  # at the start of the block
-    wrapped: FloatArray  # the same without whole turns
-    turned: FloatArray  # since then
+    states: FloatArray  # the last column is the yaw since the start of the block
+    base: FloatArray  # that at the start of the block: value, remainder, and the value without whole turns
     position: ComplexArray
-
-    def at(self, chosen: int | slice) -> "_Motion":
-        """One of the instants, or some."""
-        return _Motion(
-            self.states[chosen],
-            self.yaw[chosen],
-            self.wrapped[chosen],
-            self.turned[chosen],
-            self.position[chosen],
-        )
 
 
 class Stepper:
@@ -98,6 +81,7 @@ class Stepper:
         # A measured speed comes back to values it had: their matrices are computed once.
         self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(self._propagator)
         self._motion = Propagation(propagator(model, step_size))
+        self._yaw = Yaw()  # of the lead unit at the start of the block
         self._position = 0.0j
         self._velocity = complex(model.speed)
 
@@ -134,28 +118,29 @@ class Stepper:
         """
         if speed != self.model.speed:
             at_speed = self._at_speed(speed)
-            self._motion.start_block()
+            self._yaw.turn(self._motion.start_block())
             self._motion.propagator = at_speed
             self._set_ground_velocity()
             self._note("speed", speed)
 
     def reset(self) -> None:
         """Return to rest at the origin; time and steering stay as they are."""
-        self._motion.stand(np.zeros(2 * self._units), 0.0, 0.0)
+        self._motion.stand(np.zeros(2 * self._units))
+        self._yaw.set(0.0, 0.0)
         self._position = 0.0j
         self._set_ground_velocity()
         self._note("reset", 0.0)
 
     def snapshot(self) -> Snapshot:
         """What `restore` needs to go on from this instant, at which a block starts for both."""
-        self._motion.start_block()
+        self._yaw.turn(self._motion.start_block())
         return Snapshot(
             step=self.step,
             speed=self.model.speed,
             steering_angle=self.steering_angle,
             state=tuple(self.state.tolist()),
-            yaw=self._motion.start.yaw,
-            yaw_remainder=self._motion.start.remainder,
+            yaw=self._yaw.parts.value,
+            yaw_remainder=self._yaw.parts.remainder,
             x=self._position.real,
             y=self._position.imag,
             sampled=not self._inputs,
@@ -165,7 +150,8 @@ class Stepper:
         """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
         self.change_speed(snapshot.speed)
         self.step = snapshot.step
-        self._motion.stand(np.array(snapshot.state), snapshot.yaw, snapshot.yaw_remainder)
+        self._motion.stand(np.array(snapshot.state))
+        self._yaw.set(snapshot.yaw, snapshot.yaw_remainder)
         self._motion.steering_angle = snapshot.steering_angle
         self._position = complex(snapshot.x, snapshot.y)
         self._set_ground_velocity()
@@ -225,12 +211,15 @@ class Stepper:
         given = np.asarray(angles, dtype=np.float64)
         if tell_inputs:
             self._note_changes(given)
-        motion = self._advance(given)
-        chosen: int | slice = -1
-        if steps_per_sample is not None:
-            chosen = slice(steps_per_sample - 1, None, steps_per_sample)
+        states, blocks, positions = self._advance(given)
+        if steps_per_sample is None:
+            motion = _Motion(states[-1], np.array(blocks[-1][1]), positions[-1])
+            return self._sample_of(np.asarray(self.step), given[-1], motion)
+        chosen = slice(steps_per_sample - 1, None, steps_per_sample)
+        counts, bases = zip(*blocks, strict=True)
+        motion = _Motion(states[chosen], np.repeat(bases, counts, axis=0)[chosen], positions[chosen])
         steps = np.arange(self.step + 1 - len(given), self.step + 1)
-        return self._sample_of(steps[chosen], given[chosen], motion.at(chosen))
+        return self._sample_of(steps[chosen], given[chosen], motion)
 
     def sample(self) -> Sample:
         """Sample of this instant; the list of inputs starts anew."""
@@ -238,42 +227,47 @@ class Stepper:
         return self._sample_of(step, angle, self._now())
 
     def _now(self) -> _Motion:
-        start = self._motion.start
-        states = self._motion.now()
-        return _Motion(
-            states,
-            np.asarray(start.yaw),
-            np.asarray(start.wrapped),
-            np.asarray(states[-1] + start.remainder),
-            np.asarray(self._position),
-        )
+        states = np.append(self.state, self._motion.turned)
+        return _Motion(states, np.array(self._yaw.parts), np.asarray(self._position))
 
-    def _advance(self, angles: FloatArray) -> _Motion:
-        """Take a step for each of k angles."""
+    def _advance(self, angles: FloatArray) -> tuple[FloatArray, list[tuple[int, YawParts]], ComplexArray]:
+        """Take a step for each of k angles.
+
+        Returns
+        -------
+        states : ndarray, shape (k, 2 n + 1)
+            As `_Motion.states`.
+        blocks : list of (int, YawParts)
+            Steps, and the yaw at the start of the block.
+        positions : ndarray of complex, shape (k,)
+        """
         states = np.empty((len(angles), 2 * self._units + 1))
-        starts = self._motion.advance(angles, states)
-        if not abs(states[-1, -1]) <= LARGEST_YAW:  # so that no number is none, either
-            grown = int(np.argmin(np.abs(states[:, -1]) <= LARGEST_YAW))
-            time = (self.step + 1 + grown) * self.step_size
+        steps_of_blocks = self._motion.advance(angles, states)
+        turned = states[:, -1]
+        if not abs(turned[-1]) <= LARGEST_YAW:  # so that no number is none, either
+            time = (self.step + 1 + int(np.argmin(np.abs(turned) <= LARGEST_YAW))) * self.step_size
             message = f"{self._vehicle.name}: unstable, beyond all numbers at {time:g} s"
             raise SteppingError(message)
         self.step += len(angles)
-        yaw, wrapped, turned = np.empty(len(angles)), np.empty(len(angles)), states[:, -1]
-        done = 0
-        for start in starts:
-            steps = slice(done, done + start.steps)
-            yaw[steps], wrapped[steps] = start.yaw, start.wrapped
-            turned[steps] += start.remainder
-            done += start.steps
-        velocities = np.empty(len(angles) + 1, dtype=np.complex128)
-        velocities[0] = self._velocity
-        velocities[1:] = _ground_velocity(self.model.speed, states[:, 0], wrapped + turned)
-        positions = np.empty_like(velocities)
-        positions[0] = self._position
-        np.multiply(velocities[:-1] + velocities[1:], 0.5 * self.step_size, out=positions[1:])
-        np.add.accumulate(positions, out=positions)
+        blocks = []
+        for steps, turned_before in steps_of_blocks:
+            if turned_before:
+                self._yaw.turn(turned_before)
+            blocks.append((steps, self._yaw.parts))
+        if len(blocks) == 1:
+            yaw = turned + self._yaw.direction
+        else:
+            counts, parts = zip(*blocks, strict=True)
+            yaw = turned + np.repeat([part.wrapped + part.remainder for part in parts], counts)
+        velocities = _ground_velocity(self.model.speed, states[:, 0], yaw)
+        ways = np.empty_like(velocities)
+        ways[0], ways[1:] = self._velocity, velocities[:-1]
+        ways += velocities
+        ways *= 0.5 * self.step_size
+        ways[0] += self._position
+        positions = np.add.accumulate(ways)
         self._position, self._velocity = complex(positions[-1]), complex(velocities[-1])
-        return _Motion(states, yaw, wrapped, turned, positions[1:])
+        return states, blocks, positions
 
     def _sample_of(self, step: npt.NDArray[np.int64], steering_angle: FloatArray, motion: _Motion) -> Sample:
         count = self._units
@@ -281,11 +275,12 @@ class Stepper:
         states_and_angle[..., -1] = steering_angle
         outputs = outputs_of(self._motion.propagator, states_and_angle)
         yaw_rate, articulation = outputs[..., count : 2 * count], outputs[..., 3 * count :]
+        value, remainder, wrapped = np.moveaxis(motion.base, -1, 0)
         turned = np.empty_like(yaw_rate)
-        turned[..., 0] = motion.turned
+        turned[..., 0] = motion.states[..., -1] + remainder
         for joint in range(count - 1):
             turned[..., joint + 1] = turned[..., joint] - articulation[..., joint]
-        heading = _heading(motion.wrapped[..., np.newaxis] + turned)
+        heading = _heading(wrapped[..., np.newaxis] + turned)
         positions = coupled_positions(self._vehicle.hitches, motion.position, heading)
         inputs, self._inputs = tuple(self._inputs), []
         return Sample(
@@ -294,7 +289,7 @@ class Stepper:
             speed=self.model.speed,
             x=positions.real,
             y=positions.imag,
-            yaw=motion.yaw[..., np.newaxis] + turned,
+            yaw=value[..., np.newaxis] + turned,
             yaw_rate=yaw_rate,
             heading=heading,
             lateral_velocity=outputs[..., :count],
@@ -320,20 +315,20 @@ class Stepper:
         return propagator(linear_model(self._vehicle, speed, self._model_name), self.step_size)
 
     def _set_ground_velocity(self) -> None:
-        now = self._now()
-        yaw = np.reshape(now.wrapped + now.turned, 1)
-        self._velocity = complex(_ground_velocity(self.model.speed, now.states[:1], yaw)[0])
+        yaw = np.array([self._motion.turned + self._yaw.direction])
+        self._velocity = complex(_ground_velocity(self.model.speed, self.state[:1], yaw)[0])
 
 
 def _ground_velocity(speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:
     """Velocity over ground, shape (k,)."""
-    # Never a product of two numbers that are both complex: NumPy rounds it otherwise at the end of an array.
-    heading = _heading(yaw)
-    sideways = heading * lateral_velocity
-    sideways *= 1j
-    heading *= speed
-    heading += sideways
-    return heading
+    # Never a product of numbers that have both parts: NumPy rounds that otherwise at the end of an array.
+    sideways = np.zeros(len(yaw), dtype=np.complex128)
+    sideways.imag = lateral_velocity
+    velocity = _heading(yaw)
+    sideways *= velocity
+    velocity *= speed
+    velocity += sideways
+    return velocity
 
 
 def _heading(yaw: FloatArray) -> ComplexArray:

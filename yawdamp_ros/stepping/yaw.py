@@ -1,0 +1,52 @@
+"""The yaw of a vehicle that may turn for days."""
+
+import math
+from typing import NamedTuple
+
+LARGEST_YAW = 1e100
+"""In rad: an unstable motion grows until it has no numbers left."""
+
+
+class YawParts(NamedTuple):
+    """A yaw as the sum of two numbers.
+
+    Attributes
+    ----------
+    value, remainder : float
+        A number, and what its rounding left over, rad.
+    wrapped : float
+        The value without whole turns, rad.
+    """
+
+    value: float
+    remainder: float
+    wrapped: float
+
+
+class Yaw:
+    """A sum of angles that loses nothing, however many there are.
+
+    Attributes
+    ----------
+    parts : YawParts
+    direction : float
+        The yaw without whole turns, rad.
+    """
+
+    def __init__(self) -> None:
+        self.set(0.0, 0.0)
+
+    def set(self, value: float, remainder: float) -> None:
+        """Be the sum of two numbers, the second the rounding error of the first."""
+        known = abs(value) <= LARGEST_YAW
+        wrapped = math.atan2(math.sin(value), math.cos(value)) if known else math.nan
+        self.parts = YawParts(value, remainder, wrapped)
+        self.direction = wrapped + remainder
+
+    def turn(self, angle: float) -> None:
+        """Add an angle in rad."""
+        value, remainder, _ = self.parts
+        change = remainder + angle
+        total = value + change
+        back = total - value
+        self.set(total, (value - (total - back)) + (change - back))
