@@ -275,7 +275,7 @@ class Stepper:
         states_and_angle[..., -1] = steering_angle
         outputs = outputs_of(self._motion.propagator, states_and_angle)
         yaw_rate, articulation = outputs[..., count : 2 * count], outputs[..., 3 * count :]
-        value, remainder, wrapped = np.moveaxis(motion.base, -1, 0)
+        value, remainder, wrapped = (motion.base[..., part] for part in range(3))
         turned = np.empty_like(yaw_rate)
         turned[..., 0] = motion.states[..., -1] + remainder
         for joint in range(count - 1):
