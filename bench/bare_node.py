@@ -3,11 +3,9 @@
 import signal
 import sys
 import time
-from contextlib import suppress
 
 import rclpy
 from nav_msgs.msg import Odometry
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
@@ -53,8 +51,11 @@ def main() -> None:
     rclpy.init()
     node = BareNode(float(sys.argv[1]))
     signal.signal(signal.SIGINT, lambda *_: rclpy.try_shutdown())
-    with suppress(ExternalShutdownException):
+    try:
         rclpy.spin(node)
+    except Exception:  # of several types, by where the signal came
+        if rclpy.ok():
+            raise
     print(node.missed)
 
 

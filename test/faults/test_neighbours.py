@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
@@ -167,7 +167,7 @@ def test_publishers_that_cannot_be_heard_are_named_with_the_reason(graph: Graph)
     said = [
         f"/steering: /{name} is not heard: {reason}"
         for name, reason in (
-            ("stranger", "it publishes sensor_msgs/msg/JointState, expected std_msgs/msg/Float64"),
+            ("stranger", "its type is sensor_msgs/msg/JointState, expected std_msgs/msg/Float64"),
             ("observer", "its QoS does not fit: Best effort publisher and reliable subscription"),
         )
     ]
@@ -178,7 +178,19 @@ def test_publishers_that_cannot_be_heard_are_named_with_the_reason(graph: Graph)
     stranger.communicate()
     errors = stop(process)[2]
     assert [errors.count(text) for text in said] == [1, 1]
-    assert errors.count("QoS") == 1
+    assert errors.count("QoS") == 1, errors
+
+
+def test_a_subscriber_that_can_hear_nothing_is_named_with_the_reason(graph: Graph) -> None:
+    process = started(graph)
+    statuses = graph.statuses()
+    late = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    graph.node.create_subscription(Imu, "/truck/imu", lambda _: None, late)
+    more_samples(graph, 250)
+    assert statuses("steering").level == b"\0"
+    errors = stop(process)[2]
+    said = "/truck/imu: /observer hears nothing: its QoS does not fit: Volatile publisher and transient local"
+    assert errors.count(said) == 1
 
 
 def test_shared_memory_removed_underneath_is_said_and_takes_neither_samples_nor_the_recording(

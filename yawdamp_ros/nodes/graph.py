@@ -1,6 +1,7 @@
 """Joining the ROS graph and leaving it in good order."""
 
 import threading
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
@@ -9,6 +10,7 @@ from pathlib import Path
 import rclpy
 from rclpy.exceptions import ParameterException
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -16,6 +18,8 @@ from rclpy.signals import SignalHandlerOptions
 from yawdamp_ros.files import read_text
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.stop_request import StopRequest
+
+RCLError = rclpy_implementation.RCLError
 
 SPIN_PERIOD = 0.05
 """Longest time in s that the executor waits on end."""
@@ -48,9 +52,12 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
         raise NodeError(_first_line(error)) from error
     finally:
         set_logger_level("rcl", LoggingSeverity.UNSET)
+    # What rclpy adds where a node cannot be made, and the error says.
+    warnings.filterwarnings("ignore", "Failed to fini", RuntimeWarning)
     try:
         yield
-    except ParameterException as error:  # of those that every node has, and of lists of another type
+    # Parameters that every node has, lists of another type; a node that rcl cannot make.
+    except (ParameterException, RCLError) as error:
         raise NodeError(_first_line(error)) from error
     finally:
         rclpy.try_shutdown()

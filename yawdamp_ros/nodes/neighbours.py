@@ -1,5 +1,6 @@
-"""Who publishes what the simulator listens to, and whether that fits."""
+"""Who publishes what the simulator listens to, who listens to what it publishes, and whether that fits."""
 
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -23,6 +24,7 @@ class Neighbourhood(NamedTuple):
     publishers : int
         On the inputs, heard or not.
     problems : tuple of str
+        With the inputs.
     """
 
     publishers: int
@@ -30,7 +32,7 @@ class Neighbourhood(NamedTuple):
 
 
 class Neighbours:
-    """Watches the publishers of a node's inputs; what does not fit is warned of once, when it comes.
+    """Watches the other ends of a node's topics; what does not fit is warned of once, when it comes.
 
     DDS drops what does not fit without a word to either side's user, and of two that steer at once the
     newest command wins, whose ever it is.
@@ -40,10 +42,13 @@ class Neighbours:
     node : Node
     inputs : sequence of str
         Topics as the node subscribes to them.
+    outputs : sequence of str
+        Topics that it publishes, fully qualified.
     """
 
-    def __init__(self, node: Node, inputs: tuple[str, ...]) -> None:
+    def __init__(self, node: Node, inputs: Sequence[str], outputs: Sequence[str]) -> None:
         self._node = node
+        self._outputs = tuple(outputs)
         self._inputs = {node.resolve_topic_name(name) for name in inputs}
         self._known: tuple[str, ...] = ()
 
@@ -56,11 +61,19 @@ class Neighbours:
                 found = self._node.get_publishers_info_by_topic(subscription.topic_name)
                 publishers += len(found)
                 problems += _problems(subscription, found)
-        for problem in problems:
+        unheard = [
+            f"{topic}: {_name(listener)} hears nothing: {mismatch}"
+            for topic in self._outputs
+            for publisher in self._node.get_publishers_info_by_topic(topic)
+            if _name(publisher) == self._node.get_fully_qualified_name()
+            for listener in self._node.get_subscriptions_info_by_topic(topic)
+            if (mismatch := _mismatch(publisher.topic_type, listener, publisher, listener))
+        ]
+        for problem in (*problems, *unheard):
             if problem not in self._known:
                 self._node.get_logger().warning(problem)
-        self._known = tuple(problems)
-        return Neighbourhood(publishers, self._known)
+        self._known = (*problems, *unheard)
+        return Neighbourhood(publishers, tuple(problems))
 
 
 def _is_cut_off() -> bool:
@@ -77,7 +90,7 @@ def _problems(subscription: Any, publishers: list[Any]) -> list[str]:  # noqa: A
     problems = []
     heard = []
     for publisher in publishers:
-        if mismatch := _mismatch(subscription, publisher):
+        if mismatch := _mismatch(type_name(subscription.msg_type), publisher, publisher, subscription):
             problems.append(f"{subscription.topic_name}: {_name(publisher)} is not heard: {mismatch}")
         else:
             heard.append(_name(publisher))
@@ -87,10 +100,10 @@ def _problems(subscription: Any, publishers: list[Any]) -> list[str]:  # noqa: A
     return problems
 
 
-def _mismatch(subscription: Any, publisher: Any) -> str:  # noqa: ANN401
-    wanted = type_name(subscription.msg_type)
-    if publisher.topic_type != wanted:
-        return f"it publishes {publisher.topic_type}, expected {wanted}"
+def _mismatch(expected: str, other: Any, publisher: Any, subscription: Any) -> str:  # noqa: ANN401
+    """Why one's own end of a topic of a type does not meet another; empty if it does."""
+    if other.topic_type != expected:
+        return f"its type is {other.topic_type}, expected {expected}"
     compatibility, reason = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
     if compatibility == QoSCompatibility.ERROR:
         return f"its QoS does not fit: {reason.removeprefix('ERROR: ').rstrip(';')}"

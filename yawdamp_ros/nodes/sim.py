@@ -141,7 +141,7 @@ class SimNode(Node):
         self.create_service(SetBool, "~/record", self._on_record)
         self._diagnosis = Diagnosis(self.get_fully_qualified_name(), self.model.vehicle.name)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
-        self._neighbours = Neighbours(self, ("steering", "speed"))
+        self._neighbours = Neighbours(self, ("steering", "speed"), self._outputs.topics)
         self._looked_at = time.monotonic_ns()
         self.create_timer(DIAGNOSTICS_PERIOD, self._diagnose, clock=steady)
 

@@ -2,7 +2,7 @@
 
 from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.pacer import Pacer
-from yawdamp_ros.stepping.response import Response, simulate
+from yawdamp_ros.stepping.response import Response, linear_response, simulate
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.speed_input import SpeedInput
 from yawdamp_ros.stepping.steering_actuator import SteeringActuator
@@ -24,6 +24,7 @@ __all__ = [
     "SteppingError",
     "TimeGrid",
     "Verdict",
+    "linear_response",
     "meaningless",
     "simulate",
 ]
