@@ -14,7 +14,7 @@ from yawdamp_ros.analysis import (
     speed_boundaries,
     zero_damping_speed,
 )
-from yawdamp_ros.analysis.steady_turn import steady_steering
+from yawdamp_ros.analysis.steady_state import steady_steering
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.vehicle import load_vehicle
 

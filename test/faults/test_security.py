@@ -35,9 +35,10 @@ def test_the_permissions_are_all_that_the_node_says_and_hears_and_nothing_else(g
     options = [word for extra in extras for word in ("-p", extra)]
     process = graph.command("sim", "--no-record", "--ros-args", *options)
     node = graph.node
-    until(lambda: node.count_publishers("/diagnostics") > 0, "the node")
     here = ("yawdamp_sim", "/")
-    until(lambda: bool(node.get_service_names_and_types_by_node(*here)), "its services")
+    until(lambda: here in node.get_node_names_and_namespaces(), "the node")
+    until(lambda: node.count_publishers("/diagnostics") > 0, "its publishers")
+    until(lambda: len(node.get_service_names_and_types_by_node(*here)) > 9, "its services")
     said = {f"rt{name}" for name, _ in node.get_publisher_names_and_types_by_node(*here)}
     heard = {f"rt{name}" for name, _ in node.get_subscriber_names_and_types_by_node(*here)}
     services = {name for name, _ in node.get_service_names_and_types_by_node(*here)}

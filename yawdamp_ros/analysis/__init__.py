@@ -8,6 +8,12 @@ from typing import TYPE_CHECKING
 from yawdamp_ros.lazy import load_on_use
 
 if TYPE_CHECKING:
+    from yawdamp_ros.analysis.amplification import (
+        PeakAmplification,
+        amplification_at,
+        peak_amplification,
+        rearward_amplification,
+    )
     from yawdamp_ros.analysis.assessment import Finding, assess, failed
     from yawdamp_ros.analysis.boundaries import (
         SPEEDS,
@@ -17,6 +23,7 @@ if TYPE_CHECKING:
         speed_boundaries,
         zero_damping_speed,
     )
+    from yawdamp_ros.analysis.eigenmodes import Mode, growth, least_damping_ratio, modes, rightmost
     from yawdamp_ros.analysis.errors import AnalysisError
     from yawdamp_ros.analysis.lane_change import (
         SAE_J2179,
@@ -27,26 +34,19 @@ if TYPE_CHECKING:
     )
     from yawdamp_ros.analysis.locus import Locus, eigenvalue_locus
     from yawdamp_ros.analysis.measures import MEASURES, Level, Measure
-    from yawdamp_ros.analysis.modes import Mode, growth, least_damping_ratio, modes, rightmost
     from yawdamp_ros.analysis.offtracking import (
         axle_path,
         high_speed_transient_offtracking,
         steady_offtracking,
     )
-    from yawdamp_ros.analysis.rearward_amplification import (
-        PeakAmplification,
-        amplification_at,
-        peak_amplification,
-        rearward_amplification,
-    )
-    from yawdamp_ros.analysis.steady_turn import (
+    from yawdamp_ros.analysis.steady_state import (
         SteadyTurn,
         Steering,
         static_gains,
         steady_steering,
         steady_turn,
     )
-    from yawdamp_ros.analysis.transfer_function import TransferFunction, transfer_function
+    from yawdamp_ros.analysis.transfer import TransferFunction, transfer_function
     from yawdamp_ros.analysis.variation import Variation, parse_variation
     from yawdamp_ros.analysis.yaw_damping import pulse_decay, yaw_damping_coefficient
 
@@ -118,26 +118,26 @@ __getattr__ = load_on_use(
         ),
         "yawdamp_ros.analysis.locus": ("Locus", "eigenvalue_locus"),
         "yawdamp_ros.analysis.measures": ("MEASURES", "Level", "Measure"),
-        "yawdamp_ros.analysis.modes": ("Mode", "growth", "least_damping_ratio", "modes", "rightmost"),
+        "yawdamp_ros.analysis.eigenmodes": ("Mode", "growth", "least_damping_ratio", "modes", "rightmost"),
         "yawdamp_ros.analysis.offtracking": (
             "axle_path",
             "high_speed_transient_offtracking",
             "steady_offtracking",
         ),
-        "yawdamp_ros.analysis.rearward_amplification": (
+        "yawdamp_ros.analysis.amplification": (
             "PeakAmplification",
             "amplification_at",
             "peak_amplification",
             "rearward_amplification",
         ),
-        "yawdamp_ros.analysis.steady_turn": (
+        "yawdamp_ros.analysis.steady_state": (
             "SteadyTurn",
             "Steering",
             "static_gains",
             "steady_steering",
             "steady_turn",
         ),
-        "yawdamp_ros.analysis.transfer_function": ("TransferFunction", "transfer_function"),
+        "yawdamp_ros.analysis.transfer": ("TransferFunction", "transfer_function"),
         "yawdamp_ros.analysis.variation": ("Variation", "parse_variation"),
         "yawdamp_ros.analysis.yaw_damping": ("pulse_decay", "yaw_damping_coefficient"),
     },

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from yawdamp_ros.analysis.modes import rightmost
+from yawdamp_ros.analysis.eigenmodes import rightmost
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.vehicle import Vehicle
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yawdamp_ros.analysis.boundaries import Boundary, find_boundaries
-from yawdamp_ros.analysis.modes import ComplexArray, rightmost
+from yawdamp_ros.analysis.eigenmodes import ComplexArray, rightmost
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 

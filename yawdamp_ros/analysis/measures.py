@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from yawdamp_ros.analysis import boundaries, offtracking
-from yawdamp_ros.analysis.lane_change import SAE_J2179, SAE_J2179_SPEED, run_lane_change
-from yawdamp_ros.analysis.modes import least_damping_ratio
-from yawdamp_ros.analysis.rearward_amplification import (
+from yawdamp_ros.analysis.amplification import (
     FREQUENCIES,
     peak_amplification,
     rearward_amplification,
 )
-from yawdamp_ros.analysis.steady_turn import steady_steering
+from yawdamp_ros.analysis.eigenmodes import least_damping_ratio
+from yawdamp_ros.analysis.lane_change import SAE_J2179, SAE_J2179_SPEED, run_lane_change
+from yawdamp_ros.analysis.steady_state import steady_steering
 from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH, pulse_decay, yaw_damping_coefficient
 from yawdamp_ros.dynamics import LinearModel
 

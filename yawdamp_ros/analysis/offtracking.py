@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from yawdamp_ros.analysis.lane_change import steer_axle
-from yawdamp_ros.analysis.steady_turn import steady_turn
+from yawdamp_ros.analysis.steady_state import steady_turn
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray, coupled_positions
 from yawdamp_ros.stepping import Response

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from yawdamp_ros.analysis.eigenmodes import ComplexArray
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.measures import MEASURES
-from yawdamp_ros.analysis.modes import ComplexArray
 from yawdamp_ros.dynamics import consistent, linear_model
 from yawdamp_ros.dynamics.errors import DynamicsError
 from yawdamp_ros.dynamics.kinematics import FloatArray

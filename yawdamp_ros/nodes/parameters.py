@@ -113,13 +113,13 @@ class SimParameters:
     final_frequency: float = _parameter(UNSET, "of the chirp, Hz; nan: its own")
     sweep_time: float = _parameter(UNSET, "of the chirp, s; nan: its own")
     max_lateral_acceleration: float = _parameter(
-        50.0,
+        100.0,
         "in m/s^2 of any unit, past which the model means nothing and the run is stopped",
         limits=(1.0, 1e6),
         dynamic=True,
     )
     max_articulation: float = _parameter(
-        1.5, "in rad of any joint, past which the run is stopped, too", limits=(0.1, 1e3), dynamic=True
+        3.14, "in rad of any joint, past which the run is stopped, too", limits=(0.1, 1e3), dynamic=True
     )
     duration: float = _parameter(
         0.0, "simulated time in s after which the node ends; 0: none", limits=(0.0, 1e9)

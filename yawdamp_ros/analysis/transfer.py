@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigvals
 
+from yawdamp_ros.analysis.eigenmodes import ComplexArray
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.modes import ComplexArray
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
