@@ -31,6 +31,18 @@ _DOMAINS = itertools.cycle(range(1 + 20 * (_WORKER % 5), 21 + 20 * (_WORKER % 5)
 """Of this worker alone, so that tests side by side do not hear each other."""
 
 
+SLEEPER = """
+import rclpy
+from sensor_msgs.msg import Imu, JointState
+rclpy.init()
+node = rclpy.create_node("sleeper")
+node.create_subscription(Imu, "truck/imu", lambda _: None, 10)
+node.create_subscription(JointState, "joint_states", lambda _: print("heard", flush=True), 10)
+rclpy.spin(node)
+"""
+"""A program that reads outputs and says so once it does, to be stopped by SIGSTOP."""
+
+
 def until(condition: Callable[[], bool], what: str) -> None:
     """Wait for a condition; fail, naming it, if it does not come."""
     deadline = time.monotonic() + PATIENCE
@@ -75,6 +87,12 @@ class Graph:
         )
         self._processes.append(process)
         return process
+
+    def script(self, text: str) -> subprocess.Popen[str]:
+        """Start a node of another kind, as a Python program; the caller ends it."""
+        return subprocess.Popen(
+            [sys.executable, "-c", text], env=self.environment, stdout=subprocess.PIPE, text=True
+        )
 
     def listen(self, topics: dict[str, type]) -> None:
         """Keep every message of some topics, as it came."""

@@ -1,6 +1,4 @@
 import signal
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +9,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from graph import Graph, stamps, stop, until, values
+from graph import SLEEPER, Graph, stamps, stop, until, values
 from runs import PERIOD, recorded, run_directory
 from yawdamp_ros.cli import run
 
@@ -33,15 +31,6 @@ for index in range(10_000):
 while publisher.get_subscription_count():
     publisher.publish(Float64(data=0.2))
     time.sleep(0.1)
-"""
-SLEEPER = """
-import rclpy
-from sensor_msgs.msg import Imu, JointState
-rclpy.init()
-node = rclpy.create_node("sleeper")
-node.create_subscription(Imu, "truck/imu", lambda _: None, 10)
-node.create_subscription(JointState, "joint_states", lambda _: print("heard", flush=True), 10)
-rclpy.spin(node)
 """
 STRANGER = """
 import rclpy
@@ -77,12 +66,6 @@ def more_samples(graph: Graph, count: int) -> None:
     until(lambda: len(graph.received["/truck/imu"]) >= before + count, f"{count} samples more")
 
 
-def script(graph: Graph, text: str) -> "subprocess.Popen[str]":
-    return subprocess.Popen(
-        [sys.executable, "-c", text], env=graph.environment, stdout=subprocess.PIPE, text=True
-    )
-
-
 def in_good_order(graph: Graph, process: Any) -> None:  # noqa: ANN401
     """The node answers and is whole."""
     assert graph.call("/yawdamp_sim/reset", Trigger, Trigger.Request()).success
@@ -109,7 +92,7 @@ def shared_memory(process: Any) -> set[Path]:  # noqa: ANN401
 
 def test_ten_thousand_commands_a_second_steer_and_hold_nothing_up(graph: Graph) -> None:
     process = started(graph)
-    flood = script(graph, FLOOD)
+    flood = graph.script(FLOOD)
     until(lambda: graph.messages("/joint_states")[-1].position[0] == 0.2, "the last command")
     in_good_order(graph, process)
     flood.communicate()
@@ -120,7 +103,7 @@ def test_ten_thousand_commands_a_second_steer_and_hold_nothing_up(graph: Graph) 
 
 def test_subscribers_that_stopped_reading_hold_nothing_up(graph: Graph) -> None:
     process = started(graph)
-    sleepers = [script(graph, SLEEPER) for _ in range(2)]
+    sleepers = [graph.script(SLEEPER) for _ in range(2)]
     for sleeper in sleepers:
         assert sleeper.stdout is not None
         assert sleeper.stdout.readline() == "heard\n"
@@ -134,7 +117,7 @@ def test_subscribers_that_stopped_reading_hold_nothing_up(graph: Graph) -> None:
 
 def test_a_hundred_nodes_come_and_go(graph: Graph) -> None:
     process = started(graph)
-    crowds = [script(graph, CROWD) for _ in range(2)]
+    crowds = [graph.script(CROWD) for _ in range(2)]
     for crowd in crowds:
         crowd.communicate()
         assert crowd.returncode == 0
@@ -146,7 +129,7 @@ def test_two_that_steer_at_once_are_named_in_diagnostics_and_once_in_the_log(gra
     process = started(graph)
     statuses = graph.statuses()
     first = graph.steering_publisher()
-    second = script(graph, FLOOD)
+    second = graph.script(FLOOD)
     said = "/steering: 2 publish at once: /flood, /observer; the newest wins"
     until(lambda: said in statuses("steering").message, "the warning")
     assert statuses("steering").level == b"\1"
@@ -162,7 +145,7 @@ def test_publishers_that_cannot_be_heard_are_named_with_the_reason(graph: Graph)
     process = started(graph)
     statuses = graph.statuses()
     best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
-    stranger = script(graph, STRANGER)
+    stranger = graph.script(STRANGER)
     graph.node.create_publisher(Float64, "/steering", best_effort)
     said = [
         f"/steering: /{name} is not heard: {reason}"

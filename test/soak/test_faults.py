@@ -3,8 +3,6 @@
 import random
 import re
 import signal
-import subprocess
-import sys
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -17,7 +15,7 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Imu
 from std_srvs.srv import SetBool
 
-from graph import Graph, has_handler, outcome, stamps, stop, until, values
+from graph import SLEEPER, Graph, has_handler, outcome, stamps, stop, until, values
 from runs import run_directory
 from yawdamp_ros.cli import run
 from yawdamp_ros.logs import McapLog, MessageDecoder
@@ -36,15 +34,6 @@ for index in range(500_000):
     time.sleep(max(start + index / 10_000 - time.monotonic(), 0.0))
 print(round(500_000 / (time.monotonic() - start)))
 """
-SLEEPER = """
-import rclpy
-from sensor_msgs.msg import Imu, JointState
-rclpy.init()
-node = rclpy.create_node("sleeper")
-node.create_subscription(Imu, "truck/imu", lambda _: None, 10)
-node.create_subscription(JointState, "joint_states", lambda _: print("heard", flush=True), 10)
-rclpy.spin(node)
-"""
 CROWD = """
 import rclpy, time
 from sensor_msgs.msg import Imu
@@ -61,12 +50,6 @@ for index in range(100):
 SAY = Callable[[str], None]
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 DAY = 86_400
-
-
-def script(graph: Graph, text: str) -> "subprocess.Popen[str]":
-    return subprocess.Popen(
-        [sys.executable, "-c", text], env=graph.environment, stdout=subprocess.PIPE, text=True
-    )
 
 
 def signalled(graph: Graph, lane: int, index: int) -> tuple[signal.Signals, int, float | None]:
@@ -157,13 +140,13 @@ def test_a_day_at_full_speed_neither_grows_nor_drifts(graph: Graph, say: SAY) ->
 
 def test_a_minute_in_bad_company_keeps_the_rate_or_counts_the_loss(graph: Graph, say: SAY) -> None:
     process = graph.command("sim")
-    sleepers = [script(graph, SLEEPER) for _ in range(3)]
+    sleepers = [graph.script(SLEEPER) for _ in range(3)]
     for sleeper in sleepers:
         assert sleeper.stdout is not None
         assert sleeper.stdout.readline() == "heard\n"
         sleeper.send_signal(signal.SIGSTOP)
     graph.listen({"/diagnostics": DiagnosticArray})
-    company = [script(graph, FLOOD), script(graph, CROWD)]
+    company = [graph.script(FLOOD), graph.script(CROWD)]
     until(lambda: len(graph.received["/diagnostics"]) > 25, "half a minute")
     until(lambda: len(graph.received["/diagnostics"]) > 50, "the other half")
     sent, _ = company[0].communicate()
