@@ -5,7 +5,6 @@ import math
 import platform
 from collections import deque
 from collections.abc import Mapping, Sequence
-from importlib.metadata import version
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -21,6 +20,7 @@ from yawdamp_ros.nodes.messages import (
 )
 from yawdamp_ros.stepping import Sample, Stepper, TimeGrid
 from yawdamp_ros.vehicle import VehicleSource
+from yawdamp_ros.version import VERSION
 
 INPUT_CHANNELS = tuple(INPUT_TYPES)
 VEHICLE_FILE = "vehicle.yaml"
@@ -88,7 +88,7 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
         "parameters": json.dumps(
             {name: None if _is_nan(value) else value for name, value in parameters.items()}
         ),
-        "version": version("yawdamp_ros"),
+        "version": VERSION,
         "python": platform.python_version(),
         "build": build_of_numerics(),
     }
@@ -96,13 +96,13 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
 
 
 def build_of_numerics() -> str:
-    """What the last bit of a result depends on: machine, NumPy, SciPy, and the BLAS kernels in use."""
+    """What the last bit of a result depends on: machine, NumPy, and the BLAS kernels in use."""
     configuration = np.show_config(mode="dicts")
     blas = configuration["Build Dependencies"]["blas"]
     extensions = configuration["SIMD Extensions"].get("found", [])
     return (
         f"{platform.machine()} ({' '.join(extensions)}), numpy {np.__version__}, "
-        f"scipy {version('scipy')}, {blas['name']} {blas['version']}"
+        f"{blas['name']} {blas['version']}"
     )
 
 
