@@ -134,6 +134,7 @@ class Stepper:
     def snapshot(self) -> Snapshot:
         """What `restore` needs to go on from this instant, at which a block starts for both."""
         self._yaw.turn(self._motion.start_block())
+        self._set_ground_velocity()  # of the yaw as `restore` will know it, which is rounded otherwise
         return Snapshot(
             step=self.step,
             speed=self.model.speed,
