@@ -1,5 +1,8 @@
 """The permissions that config/sros2 gives the node are those that it needs, and what it does without."""
 
+import re
+import shutil
+import subprocess
 import xml.etree.ElementTree as ET
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -8,7 +11,9 @@ import pytest
 
 from graph import Graph, outcome, stop, until
 
-SROS2 = Path(__file__).parents[2] / "config" / "sros2"
+ROOT = Path(__file__).parents[2]
+SROS2 = ROOT / "config" / "sros2"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def permitted(direction: str) -> list[str]:
@@ -27,6 +32,27 @@ def test_whoever_is_not_allowed_is_denied() -> None:
     assert root.find(".//allow_rule/publish/topics/topic[.='*']") is None
     governance = ET.parse(SROS2 / "governance.xml").getroot()  # noqa: S314
     assert [one.text for one in governance.iter("allow_unauthenticated_participants")] == ["false"]
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="openssl signs them")
+def test_the_readmes_lines_sign_them(tmp_path: Path) -> None:
+    lines = next(block for block in re.findall(r"```sh\n(.*?)```", README, re.DOTALL) if "smime" in block)
+    signing = lines[: lines.index("done") + len("done")]
+    for directory in ("public", "private", "enclaves/yawdamp_sim"):
+        (tmp_path / "keys" / directory).mkdir(parents=True)
+    (tmp_path / "config").symlink_to(SROS2.parent)
+    key, certificate = "keys/private/permissions_ca.key.pem", "keys/public/permissions_ca.cert.pem"
+
+    def openssl(*arguments: str) -> bytes:
+        return subprocess.run(["openssl", *arguments], cwd=tmp_path, check=True, capture_output=True).stdout
+
+    openssl("ecparam", "-name", "prime256v1", "-genkey", "-noout", "-out", key)
+    openssl("req", "-x509", "-new", "-key", key, "-days", "2", "-subj", "/CN=ca", "-out", certificate)
+    subprocess.run(["sh", "-e", "-c", signing], cwd=tmp_path, check=True, capture_output=True)
+    for document in ("permissions", "governance"):
+        signed = f"keys/enclaves/yawdamp_sim/{document}.p7s"
+        content = openssl("smime", "-verify", "-text", "-in", signed, "-CAfile", certificate)
+        assert content.split() == (SROS2 / f"{document}.xml").read_bytes().split()
 
 
 @pytest.mark.graph

@@ -1,5 +1,6 @@
 """A sweep's file goes on from where it broke off, and holds one sweep only."""
 
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ def sink(path: Path, **changed: object) -> SweepCsv:
 
 def test_rows_are_points_and_answers_in_full_precision(tmp_path: Path) -> None:
     path = tmp_path / "sweep.csv"
-    with sink(path) as opened:
+    with closing(sink(path)) as opened:
         opened.write(ANSWERS[:1])
         opened.write(ANSWERS[1:])
     assert path.read_text().splitlines() == [
@@ -34,7 +35,7 @@ def test_rows_are_points_and_answers_in_full_precision(tmp_path: Path) -> None:
 
 def test_a_file_cut_anywhere_is_gone_on_from(tmp_path: Path) -> None:
     whole = tmp_path / "whole.csv"
-    with sink(whole) as opened:
+    with closing(sink(whole)) as opened:
         opened.write(ANSWERS)
     text = whole.read_text()
     description = (tmp_path / "whole.csv.json").read_text()
@@ -42,7 +43,7 @@ def test_a_file_cut_anywhere_is_gone_on_from(tmp_path: Path) -> None:
         path = tmp_path / "cut.csv"
         path.write_text(text[:length])
         (tmp_path / "cut.csv.json").write_text(description)
-        with sink(path) as opened:
+        with closing(sink(path)) as opened:
             assert len(opened.answers) == max(text[:length].count("\n") - 1, 0)
             np.testing.assert_array_equal(opened.answers, ANSWERS[: len(opened.answers)])
             opened.write(ANSWERS[len(opened.answers) :])
@@ -51,7 +52,7 @@ def test_a_file_cut_anywhere_is_gone_on_from(tmp_path: Path) -> None:
 
 def test_what_is_written_is_in_the_file_at_once(tmp_path: Path) -> None:
     path = tmp_path / "sweep.csv"
-    with sink(path) as opened:
+    with closing(sink(path)) as opened:
         opened.write(ANSWERS[:2])
         assert path.read_text().count("\n") == 3
 
@@ -70,7 +71,7 @@ def test_what_is_written_is_in_the_file_at_once(tmp_path: Path) -> None:
 )
 def test_a_file_that_is_not_of_this_sweep_is_refused_and_left_alone(tmp_path: Path, spoil: object) -> None:
     path = tmp_path / "sweep.csv"
-    with sink(path) as opened:
+    with closing(sink(path)) as opened:
         opened.write(ANSWERS)
     spoil(path)
     before = path.read_bytes()
@@ -80,7 +81,7 @@ def test_a_file_that_is_not_of_this_sweep_is_refused_and_left_alone(tmp_path: Pa
 
 
 def test_another_question_about_the_same_points_is_another_sweep(tmp_path: Path) -> None:
-    with sink(tmp_path / "sweep.csv") as opened:
+    with closing(sink(tmp_path / "sweep.csv")) as opened:
         opened.write(ANSWERS)
     with pytest.raises(LogError, match="is not of this sweep"):
         sink(tmp_path / "sweep.csv", vehicle="a_double")

@@ -74,14 +74,17 @@ def least_damping_ratio(model: LinearModel) -> float:
 
 
 def growth(model: LinearModel) -> str:
-    """The fastest growing mode in words, such as for a warning; empty if the vehicle is stable."""
+    """Warning of the fastest growing mode; empty if the vehicle is stable."""
     mode = max(modes(model), key=lambda mode: mode.eigenvalue.real)
     rate = mode.eigenvalue.real
     if rate <= 0.0:
         return ""
     frequency = mode.damped_frequency / (2.0 * np.pi)
     kind = f"an oscillation of {frequency:.3g} Hz" if frequency else "a motion without oscillation"
-    return f"{kind} of {', '.join(mode.moving_units)} doubles every {np.log(2.0) / rate:.3g} s"
+    return (
+        f"{model.vehicle.name} is unstable at {model.speed:g} m/s: {kind} of {', '.join(mode.moving_units)} "
+        f"doubles every {np.log(2.0) / rate:.3g} s"
+    )
 
 
 def rightmost(state_matrix: FloatArray) -> complex:

@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,7 +45,7 @@ def main(arguments: Sequence[str]) -> int:
         message = f"--duration: {duration}: expected a time in s, 0 or more"
         raise UsageError(message)
     if growing := growth(model):
-        print(f"warning: {model.vehicle.name} is unstable at {model.speed:g} m/s: {growing}", file=sys.stderr)
+        print(f"warning: {growing}", file=sys.stderr)
     output = Path(options.output) if options.output else default_run_directory(model.vehicle.name)
     to_csv = output.suffix == ".csv"
     period = options.sample_period
@@ -60,7 +61,7 @@ def main(arguments: Sequence[str]) -> int:
             if to_csv
             else _run_directory(output, stepper, grid, options)
         )
-        with sink as writer, progress_bar() as bar:
+        with closing(sink) as writer, progress_bar() as bar:
             task = bar.add_task("simulating", total=duration)
             for sample in samples:
                 writer.write(sample)

@@ -2,7 +2,7 @@
 
 import argparse
 from collections.abc import Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from dataclasses import asdict
 from pathlib import Path
 from typing import NamedTuple
@@ -83,7 +83,9 @@ def _run(plan: Plan, columns: Sequence[str], options: argparse.Namespace) -> Flo
         gathered = [np.empty((0, len(study.columns)))]
         sink = None
         if options.output:
-            sink = opened.enter_context(SweepCsv(Path(options.output), plan.definition, points, columns))
+            sink = opened.enter_context(
+                closing(SweepCsv(Path(options.output), plan.definition, points, columns))
+            )
             gathered = [sink.answers]
         done = len(gathered[0])
         stop = opened.enter_context(StopRequest())

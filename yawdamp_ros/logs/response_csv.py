@@ -3,8 +3,6 @@
 import csv
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import numpy as np
 
@@ -63,16 +61,9 @@ class ResponseCsv:
         except OSError as error:
             raise LogError(self._path, f"cannot be written: {error.strerror}") from error
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """Finish the file."""
         try:
             self._file.close()
-        except OSError as problem:
-            raise LogError(self._path, f"cannot be written: {problem.strerror}") from problem
+        except OSError as error:
+            raise LogError(self._path, f"cannot be written: {error.strerror}") from error

@@ -9,8 +9,6 @@ the last ones. A row that broke off is dropped.
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import numpy as np
 
@@ -84,19 +82,12 @@ class SweepCsv:
             raise self._unusable(error) from error
         self._written += len(answers)
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """Finish the file."""
         try:
             self._file.close()
-        except OSError as problem:
-            raise self._unusable(problem) from problem
+        except OSError as error:
+            raise self._unusable(error) from error
 
     def _check(self, description: Path, described: str) -> None:
         if not description.exists() or read_text(description, LARGEST_DESCRIPTION) != described:

@@ -6,8 +6,6 @@ import platform
 from collections import deque
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import numpy as np
 
@@ -183,13 +181,6 @@ class RunRecorder:
         outputs = self._outputs.serialised(sample, stamps)
         self._writer.write(run_messages(sample, outputs, self._grid, 0))
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """Finish the run."""
         self._writer.close()

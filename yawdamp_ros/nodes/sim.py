@@ -117,9 +117,7 @@ class SimNode(Node):
         """Publish the first sample, then say what there is to be said: rclpy's first word takes long."""
         self._publish(steps=0)
         if growing := growth(self.model):
-            self.get_logger().warning(
-                f"{self.model.vehicle.name} is unstable at {self.model.speed:g} m/s: {growing}"
-            )
+            self.get_logger().warning(growing)
         if self.recorder.directory is not None:
             self.get_logger().info(f"recording to {self.recorder.directory}")
         if self.settings.publish_tf and self._outputs.without_tf:
@@ -267,7 +265,8 @@ class SimNode(Node):
         response.success = self._pacer.paused and not self.finished
         if response.success:
             self._advance()
-            response.message = f"simulated time {self.simulated_time:.9g} s"
+            response.success = not self.stopped
+            response.message = self.stopped or f"simulated time {self.simulated_time:.9g} s"
         else:
             response.message = "not paused: steps are for a simulation that stands"
         return response
