@@ -9,6 +9,7 @@ import pytest
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.analysis import (
     SAE_J2179_SPEED,
+    AnalysisError,
     axle_path,
     high_speed_transient_offtracking,
     run_lane_change,
@@ -42,6 +43,12 @@ def test_speed_swings_the_last_axle_out() -> None:
     crawling, slow, fast = (steady_offtracking(linear_model(vehicle, speed)) for speed in (1.0, 15.0, 25.0))
     assert crawling < slow < fast
     assert crawling < 0.0 < fast
+
+
+def test_vehicle_too_heavy_for_its_tyres_has_no_steady_curve() -> None:
+    vehicle = load_vehicle("single_vehicle", ["units.0.mass=1e7"])
+    with pytest.raises(AnalysisError, match="no steer angle holds a steady turn of 400 m"):
+        steady_offtracking(linear_model(vehicle))
 
 
 def test_path_of_an_axle_lies_ahead_of_the_centre_of_gravity_by_the_heading() -> None:

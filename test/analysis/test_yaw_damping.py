@@ -71,6 +71,25 @@ def test_growing_swings_have_a_negative_coefficient() -> None:
     assert yaw_damping_coefficient(values) == pytest.approx(-0.1 / math.hypot(0.1, 2.0), rel=1e-3)
 
 
+def test_growth_of_one_mode_gives_its_negative_damping_ratio() -> None:
+    growing = shifted(load_vehicle("truck_trailer"), 1, -3.0)
+    # Its slowest mode takes so long that the fastest outgrows all numbers meanwhile.
+    heavy = [
+        replace(
+            unit,
+            mass=1e7,
+            yaw_inertia=1e10,
+            axles=tuple(replace(axle, cornering_stiffness=0.001) for axle in unit.axles),
+        )
+        for unit in load_vehicle("interlink").units
+    ]
+    for vehicle in (growing, replace(load_vehicle("interlink"), units=tuple(heavy))):
+        model = linear_model(vehicle, 60.0)
+        expected = min(mode.damping_ratio for mode in modes(model))
+        assert expected < 0.0
+        assert yaw_damping_coefficient(pulse_decay(model)) == pytest.approx(expected, rel=0.01)
+
+
 def test_first_swings_with_a_second_mode_in_them_are_left_out() -> None:
     time = np.linspace(0.0, 60.0, 50_000)
     light = np.exp(-0.2 * time) * np.sin(2.0 * time)

@@ -48,10 +48,11 @@ def test_overrides_change_one_value_each() -> None:
     "override, message",
     [
         ("units.1.mas=1.0", "units.1.mas: unknown key; expected one of name, mass"),
-        ("units.1.mass=heavy", "units.1.mass: 'heavy': expected a mass in kg, above 0"),
-        ("units.1.mass=true", "units.1.mass: True: expected a mass in kg, above 0"),
-        ("units.1.mass=0", "units.1.mass: 0: expected a mass in kg, above 0"),
-        ("units.1.mass=-3.5", "units.1.mass: -3.5: expected a mass in kg, above 0"),
+        ("units.1.mass=heavy", "units.1.mass: 'heavy': expected a mass in kg, from 0.001"),
+        ("units.1.mass=true", "units.1.mass: True: expected a mass in kg, from 0.001"),
+        ("units.1.mass=0", "units.1.mass: 0: expected a mass in kg, from 0.001"),
+        ("units.1.mass=-3.5", "units.1.mass: -3.5: expected a mass in kg, from 0.001"),
+        ("units.1.mass=1e-300", "units.1.mass: 1e-300: expected a mass in kg, from 0.001"),
         ("units.1.mass=.inf", "units.1.mass: inf: expected a finite number"),
         ("units.1.mass=.nan", "units.1.mass: nan: expected a finite number"),
         (f"units.1.mass=1{'0' * 400}", "units.1.mass: a very long number: expected a finite number"),
@@ -59,6 +60,10 @@ def test_overrides_change_one_value_each() -> None:
         (
             "units.0.axles.0.cornering_stiffness=-1.0",
             "units.0.axles.0.cornering_stiffness: -1.0: expected a cornering stiffness",
+        ),
+        (
+            "units.0.axles.0.cornering_stiffness=5e-324",
+            "units.0.axles.0.cornering_stiffness: 5e-324: expected a cornering stiffness",
         ),
         ("units.0.axles.0.position=40", "units.0.axles.0.position: 40: expected a distance"),
         ("units.0.rear_hitch=-3311", "units.0.rear_hitch: -3311: expected a distance"),

@@ -49,7 +49,7 @@ def test_every_vehicle_of_a_stack_is_what_its_values_give_alone(vehicle: str, ke
 @pytest.mark.parametrize(
     "key, values, said",
     [
-        ("units.1.mass", [1.0, -2.0, 3.0], "units.1.mass: -2.0: expected a mass in kg, above 0"),
+        ("units.1.mass", [1.0, -2.0, 3.0], "units.1.mass: -2.0: expected a mass in kg, from 0.001"),
         ("units.1.load.0.mass", [1.0, 2.0], "units.1.load.0.mass: no such key to set"),
         ("units.1.rear_hitch", [-5.0, 2.0], "2.0: expected a position behind the front hitch at 1.275"),
         ("units.1.axles.0.position", [-5.0, -29.0], "30.275 m from its foremost to its rearmost"),

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.lane_change import steer_axle
 from yawdamp_ros.analysis.steady_state import steady_turn
 from yawdamp_ros.dynamics import LinearModel
@@ -95,9 +96,12 @@ def steady_offtracking(model: LinearModel, radius: float = STEADY_RADIUS) -> flo
     Raises
     ------
     AnalysisError
-        If no steer angle holds a steady turn.
+        If no steer angle holds a steady turn on that radius.
     """
     turn = steady_turn(model)
+    if not abs(turn.lateral_velocity) < radius:
+        message = f"{model.vehicle.name}: no steer angle holds a steady turn of {radius:g} m"
+        raise AnalysisError(message)
     # Turning left about the origin: where the centre of gravity moves at (u, v), it lies at (v, -u) / r.
     lead = turn.lateral_velocity - 1j * np.sqrt(radius**2 - turn.lateral_velocity**2)
     yaw_rate = -model.speed / lead.imag

@@ -73,7 +73,7 @@ def pulse_decay(model: LinearModel) -> FloatArray:
     -------
     ndarray, shape (m,)
         In rad/s for a pulse of 1 rad over `PULSE_WIDTH`, which the damping does not depend on, evenly sampled
-        until the slowest mode has died out, or has grown as far.
+        until the slowest mode has died out or, of an unstable vehicle, the fastest has grown as far.
     """
     size = len(model.state_matrix)
     held = np.zeros((size + 1, size + 1))
@@ -82,7 +82,10 @@ def pulse_decay(model: LinearModel) -> FloatArray:
     start = np.asarray(expm(held * PULSE_WIDTH), dtype=np.float64)[:size, -1]
     eigenvalues = np.linalg.eigvals(model.state_matrix)
     step = 1.0 / (_STEPS_PER_RADIAN * float(np.abs(eigenvalues).max()))
-    slowest = max(float(np.abs(eigenvalues.real).min()), _DECAY_TIME / (step * _MOST_STEPS))
+    growing = float(eigenvalues.real.max())
+    # Nothing lasts beside what grows: waiting for the slowest would be waiting past all numbers.
+    slowest = growing if growing > 0.0 else float(np.abs(eigenvalues.real).min())
+    slowest = max(slowest, _DECAY_TIME / (step * _MOST_STEPS))
     count = math.ceil(_DECAY_TIME / (slowest * step)) + 1
     return free_motion(model.state_matrix, start, step, count)[:, len(model.vehicle.units)]
 
