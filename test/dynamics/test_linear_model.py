@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -36,6 +38,7 @@ def test_an_unknown_model_is_refused_with_the_known_ones() -> None:
 
 
 def test_numbers_too_far_apart_for_a_model_are_refused() -> None:
-    tiny = [f"units.{unit}.{key}=5e-324" for unit in range(3) for key in ("mass", "yaw_inertia")]
+    vehicle = load_vehicle("interlink")
+    tiny = tuple(replace(unit, mass=5e-324, yaw_inertia=5e-324) for unit in vehicle.units)
     with pytest.raises(DynamicsError, match="the numbers of interlink are too far apart to compute with"):
-        linear_model(load_vehicle("interlink", tiny))
+        linear_model(replace(vehicle, units=tiny))
