@@ -1,6 +1,7 @@
 import resource
 import signal
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 
@@ -13,7 +14,14 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
 from ruamel.yaml import YAML
 
-from yawdamp_ros.logs import BackgroundWriter, Channel, LogError, RunWriter, default_run_directory
+from yawdamp_ros.logs import (
+    BackgroundWriter,
+    Channel,
+    LogError,
+    RunWriter,
+    default_run_directory,
+    make_run_directory,
+)
 
 FLOAT64 = "std_msgs/msg/Float64"
 CHANNELS = [Channel("/steering", FLOAT64), Channel("/truck/yaw", FLOAT64)]
@@ -21,7 +29,12 @@ ONE = b"\x00\x01\x00\x00" + bytes(6) + b"\xf0\x3f"  # 1.0 in little-endian CDR
 
 
 def writer_in(directory: Path) -> RunWriter:
-    return RunWriter(directory, CHANNELS, {"vehicle.yaml": "name: x\n"}, {"yawdamp_ros": {"speed": "20.0"}})
+    return RunWriter(
+        make_run_directory(directory, numbered=False),
+        CHANNELS,
+        {"vehicle.yaml": "name: x\n"},
+        {"yawdamp_ros": {"speed": "20.0"}},
+    )
 
 
 @pytest.fixture
@@ -87,11 +100,18 @@ def test_channels_carry_the_profile_that_metadata_yaml_carries(run: Path) -> Non
         assert entry["message_count"] == 500
 
 
-def test_a_directory_that_exists_is_never_written_to(tmp_path: Path) -> None:
+def test_a_directory_that_exists_is_none_for_a_run(tmp_path: Path) -> None:
     (tmp_path / "run").mkdir()
     with pytest.raises(LogError, match="run: cannot be recorded to: File exists"):
-        writer_in(tmp_path / "run")
-    assert list((tmp_path / "run").iterdir()) == []
+        make_run_directory(tmp_path / "run", numbered=False)
+
+
+def test_a_run_is_never_written_over(tmp_path: Path) -> None:
+    writer_in(tmp_path / "run").close()
+    before = (tmp_path / "run" / "run_0.mcap").read_bytes()
+    with pytest.raises(LogError, match="run: cannot be recorded to: File exists"):
+        RunWriter(tmp_path / "run", CHANNELS, {}, {})
+    assert (tmp_path / "run" / "run_0.mcap").read_bytes() == before
 
 
 def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
@@ -113,14 +133,22 @@ def test_what_was_flushed_survives_a_kill(tmp_path: Path) -> None:
     writer.close()
 
 
-def test_default_directories_never_coincide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_directories_of_runs_that_start_at_once_never_coincide(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
-    made = []
-    for _ in range(3):
-        made.append(default_run_directory("interlink"))
-        made[-1].mkdir(parents=True)
-    assert len(set(made)) == 3
-    assert all(path.parts[0] == "runs" and "interlink" in path.name for path in made)
+    wanted = default_run_directory("interlink")
+    with ThreadPoolExecutor(8) as pool:
+        made = list(pool.map(lambda _: make_run_directory(wanted, numbered=True), range(64)))
+    assert len(set(made)) == 64
+    assert wanted in made
+    assert all(path.parts[0] == "runs" and "interlink" in path.name and path.is_dir() for path in made)
+
+
+def test_a_number_does_not_make_a_place_writable(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(LogError, match="file/run: cannot be recorded to: Not a directory"):
+        make_run_directory(tmp_path / "file" / "run", numbered=True)
 
 
 @pytest.fixture

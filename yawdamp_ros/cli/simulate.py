@@ -23,7 +23,7 @@ from yawdamp_ros.cli.options import (
 )
 from yawdamp_ros.cli.peaks_table import print_peaks
 from yawdamp_ros.cli.ros import require_ros
-from yawdamp_ros.logs import ResponseCsv, default_run_directory
+from yawdamp_ros.logs import ResponseCsv, default_run_directory, make_run_directory
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.stepping import Stepper, TimeGrid
 from yawdamp_ros.stepping.response import Steering, sample_run
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str]) -> int:
         raise UsageError(message)
     if growing := growth(model):
         print(f"warning: {growing}", file=sys.stderr)
-    output = Path(options.output) if options.output else default_run_directory(model.vehicle.name)
+    output = Path(options.output or default_run_directory(model.vehicle.name))
     to_csv = output.suffix == ".csv"
     period = options.sample_period
     if period is None:
@@ -56,11 +56,12 @@ def main(arguments: Sequence[str]) -> int:
     samples = sample_run(stepper, grid, steering, duration)
     peaks = Peaks(len(model.vehicle.units))
     with StopRequest() as stop:
-        sink = (
-            ResponseCsv(output, model.vehicle.unit_names, grid)
-            if to_csv
-            else _run_directory(output, stepper, grid, options)
-        )
+        if to_csv:
+            sink: ResponseCsv | RunRecorder = ResponseCsv(output, model.vehicle.unit_names, grid)
+        else:
+            require_ros()
+            output = make_run_directory(output, numbered=not options.output)
+            sink = _run_recorder(output, stepper, grid, options)
         with closing(sink) as writer, progress_bar() as bar:
             task = bar.add_task("simulating", total=duration)
             for sample in samples:
@@ -96,10 +97,9 @@ def _steering(options: argparse.Namespace) -> tuple[Steering, float]:
     return chosen_manoeuvre(options), DEFAULT_DURATION if options.duration is None else options.duration
 
 
-def _run_directory(
+def _run_recorder(
     directory: Path, stepper: Stepper, grid: TimeGrid, options: argparse.Namespace
 ) -> "RunRecorder":
-    require_ros()
     from yawdamp_ros.nodes.recording import RunRecorder  # noqa: PLC0415 - a CSV needs no ROS
 
     return RunRecorder(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
         RunWriter,
         SerialisedMessage,
         default_run_directory,
-        unused,
+        make_run_directory,
     )
     from yawdamp_ros.logs.steering_csv import read_steering_csv
     from yawdamp_ros.logs.steering_log import SteeringLog
@@ -36,9 +36,9 @@ __all__ = [
     "SteeringLog",
     "default_run_directory",
     "is_recording",
+    "make_run_directory",
     "read_steering_csv",
     "read_steering_mcap",
-    "unused",
 ]
 
 __getattr__ = load_on_use(
@@ -53,7 +53,7 @@ __getattr__ = load_on_use(
             "RunWriter",
             "SerialisedMessage",
             "default_run_directory",
-            "unused",
+            "make_run_directory",
         ),
         "yawdamp_ros.logs.steering_csv": ("read_steering_csv",),
         "yawdamp_ros.logs.steering_log": ("SteeringLog",),

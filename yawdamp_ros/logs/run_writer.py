@@ -9,9 +9,6 @@ from io import BufferedWriter, StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mcap.writer import CompressionType, Writer
-from ruamel.yaml import YAML
-
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.message_definitions import message_definition
 
@@ -56,7 +53,7 @@ class RunWriter:
     Parameters
     ----------
     directory : Path
-        Made anew; never overwrites.
+        It is there, and empty: nothing in it is overwritten.
     channels : sequence of Channel
         Messages are written by their index in it.
     attachments : mapping of str to str
@@ -67,7 +64,7 @@ class RunWriter:
     Raises
     ------
     LogError
-        If the directory exists or cannot be written, here and from every method.
+        If the directory cannot be written, here and from every method.
     """
 
     def __init__(
@@ -77,6 +74,9 @@ class RunWriter:
         attachments: Mapping[str, str],
         metadata: Mapping[str, Mapping[str, str]],
     ) -> None:
+        # Here and not above: it loads long, and a node is on the graph by now.
+        from mcap.writer import CompressionType, Writer  # noqa: PLC0415
+
         self.directory = directory
         self._definitions = [message_definition(channel.type_name) for channel in channels]
         self._channels = tuple(channels)
@@ -88,7 +88,6 @@ class RunWriter:
         self._file: BufferedWriter | None = None
         self._failed = False
         try:
-            directory.mkdir(parents=True)
             self._file = self._path.open("xb")
             self._writer = Writer(
                 self._file,
@@ -224,21 +223,46 @@ class RunWriter:
 
 
 def default_run_directory(vehicle_name: str) -> Path:
-    """A directory that does not exist yet: ``runs/<stamp>_<vehicle>`` below the working directory."""
+    """``runs/<stamp>_<vehicle>`` below the working directory."""
     stamp = datetime.now(tz=UTC).astimezone().strftime("%Y%m%d-%H%M%S")
-    return unused(Path("runs", f"{stamp}_{vehicle_name}"))
+    return Path("runs", f"{stamp}_{vehicle_name}")
 
 
-def unused(wanted: Path) -> Path:
-    """A path that does not exist yet: the one wanted, or one with a number behind its name."""
+def make_run_directory(wanted: Path, *, numbered: bool) -> Path:
+    """Make the directory of a run.
+
+    Parameters
+    ----------
+    wanted : Path
+    numbered : bool
+        Whether one with a number behind its name will do where that exists.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    LogError
+        If it exists or cannot be made.
+    """
     path, repeat = wanted, 1
-    while os.path.lexists(path):
-        repeat += 1
-        path = wanted.parent / f"{wanted.name}_{repeat}"
-    return path
+    while True:
+        try:
+            # To look first and make it then would be too late: simulators start side by side.
+            path.mkdir(parents=True)
+        except OSError as error:
+            if not (numbered and os.path.lexists(path)):
+                raise LogError(path, f"cannot be recorded to: {error.strerror}") from error
+            repeat += 1
+            path = wanted.with_name(f"{wanted.name}_{repeat}")
+        else:
+            return path
 
 
 def _dump_yaml(data: object) -> str:
+    from ruamel.yaml import YAML  # noqa: PLC0415 - as above
+
     yaml = YAML(typ="safe", pure=True)
     yaml.default_flow_style = False
     yaml.width = 1000

@@ -50,7 +50,7 @@ class Recorder:
         Raises
         ------
         LogError
-            If the directory exists or cannot be written; then the run before it goes on.
+            If the directory cannot be written; then the run before it goes on.
         """
         writer = BackgroundWriter(self._open_writer(directory))
         self.stop()

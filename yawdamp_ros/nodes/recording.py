@@ -63,7 +63,7 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
     Raises
     ------
     LogError
-        If the directory exists or cannot be written.
+        If the directory cannot be written.
     """
     types = [type_name(kind) for kind in (*INPUT_TYPES.values(), *outputs.types.values())]
     channels = [Channel(topic, name) for topic, name in zip(topics, types, strict=True)]
@@ -150,7 +150,7 @@ class RunRecorder:
     Raises
     ------
     LogError
-        If the directory exists or cannot be written, here and at every write.
+        If the directory cannot be written, here and at every write.
     """
 
     def __init__(

@@ -17,7 +17,7 @@ from yawdamp_ros.analysis import growth, least_damping_ratio
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.errors import YawdampError
-from yawdamp_ros.logs import RunWriter, default_run_directory, unused
+from yawdamp_ros.logs import RunWriter, default_run_directory, make_run_directory
 from yawdamp_ros.manoeuvres import make_manoeuvre
 from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
 from yawdamp_ros.nodes.errors import NodeError
@@ -99,7 +99,7 @@ class SimNode(Node):
         self._start_time = time.time_ns()
         self.recorder = Recorder(self._open_run)
         if self.settings.record:
-            self.recorder.start(self._run_directory())
+            self.recorder.start(self._new_directory(numbered=not self.settings.record_directory))
 
     @property
     def finished(self) -> bool:
@@ -274,7 +274,7 @@ class SimNode(Node):
     def _on_record(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         try:
             if request.data:
-                self.recorder.start(unused(self._run_directory()))
+                self.recorder.start(self._new_directory(numbered=True))
                 self.get_logger().info(f"recording to {self.recorder.directory}")
             else:
                 self.recorder.stop()
@@ -284,9 +284,9 @@ class SimNode(Node):
         response.success, response.message = self.recorder.failure is None, self.recorder.state
         return response
 
-    def _run_directory(self) -> Path:
-        wanted = self.settings.record_directory
-        return Path(wanted) if wanted else default_run_directory(self.model.vehicle.name)
+    def _new_directory(self, *, numbered: bool) -> Path:
+        wanted = self.settings.record_directory or default_run_directory(self.model.vehicle.name)
+        return make_run_directory(Path(wanted), numbered=numbered)
 
     def _open_run(self, directory: Path) -> RunWriter:
         return open_run(
