@@ -1,6 +1,8 @@
 """`sim`: the simulator node."""
 
-from collections.abc import Sequence
+import gc
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from yawdamp_ros.nodes.stop_request import StopRequest
@@ -14,8 +16,18 @@ if TYPE_CHECKING:
 def main(arguments: Sequence[str]) -> int:
     """Run the node until its duration is over or a signal comes."""
     # First of all, for a signal may come while the rest is imported.
-    with StopRequest() as stop:
+    with StopRequest() as stop, _uncollected():
         return _sim(arguments, stop)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Let nothing look for garbage before the node runs: what is imported stays, and that takes long."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
@@ -44,19 +56,28 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
 def _run(node: "SimNode", stop: StopRequest) -> bool:
     if stop.requested:
         return True
-    # What comes next takes a while to import, which neither the first sample nor the clock waits for.
-    node.publish_first()
-    from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
     from yawdamp_ros.nodes.graph import spin  # noqa: PLC0415
 
-    node.start()
-    with progress_bar() as bar:
-        task = bar.add_task("simulating", total=node.settings.duration, visible=bool(node.settings.duration))
-
-        def progress() -> None:
-            bar.update(task, completed=node.simulated_time)
-
+    node.publish_first()
+    with _progress(node) as progress:
+        gc.freeze()  # what there is by now is never garbage
+        gc.enable()
+        node.start()
         return spin(node, stop, lambda: node.finished, progress)
+
+
+@contextmanager
+def _progress(node: "SimNode") -> Iterator[Callable[[], None]]:
+    """Something that shows how far a run is whose end is known."""
+    if not node.settings.duration:
+        yield lambda: None
+        return
+    # It takes a while to import, which neither the first sample nor the clock waits for.
+    from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
+
+    with progress_bar() as bar:
+        task = bar.add_task("simulating", total=node.settings.duration)
+        yield lambda: bar.update(task, completed=node.simulated_time)
 
 
 def _report(node: "SimNode") -> None:

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from yawdamp_ros.files import read_text
-from yawdamp_ros.plain_yaml import parse_yaml
 from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.loads import added_axle_loads, loaded
@@ -183,6 +182,9 @@ def _check_schema(data: Any, source: str) -> None:  # noqa: ANN401
 
 
 def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until it is checked
+    # Here and not above: a node is on the graph before it reads its vehicle.
+    from yawdamp_ros.plain_yaml import parse_yaml  # noqa: PLC0415
+
     try:
         return parse_yaml(text, MOST_VALUES)
     except ValueError as error:
