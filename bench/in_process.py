@@ -65,7 +65,7 @@ def eigenvalues(runner: pyperf.Runner) -> None:
 
 def main() -> None:
     """Measure; `-o FILE` keeps the figures."""
-    runner = pyperf.Runner(processes=5, values=3, warmups=1)
+    runner = pyperf.Runner(processes=1, values=3, warmups=1)
     offline(runner)
     step(runner)
     eigenvalues(runner)

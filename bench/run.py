@@ -20,6 +20,7 @@ from whole_run import simulated, steering_log, written_anew
 
 HERE = Path(__file__).parent
 HOUR = 3600
+ROUNDS = 5
 
 
 class Row(NamedTuple):
@@ -49,19 +50,21 @@ class Row(NamedTuple):
 
 
 def in_process(directory: Path) -> list[Row]:
-    """What pyperf measures."""
-    results = directory / "in_process.json"
+    """What pyperf measures, in rounds: whatever else the machine does for a while then slows all of it."""
     # One core for everybody: nothing here may win by a second one.
     threads = "OPENBLAS_NUM_THREADS"
-    options = ["--quiet", f"--inherit-environ={threads}", "-o", str(results)]
-    subprocess.run(  # noqa: S603 - this project's own script
-        [sys.executable, str(HERE / "in_process.py"), *options],
-        check=True,
-        stdout=subprocess.DEVNULL,
-        env={**os.environ, threads: "1"},
-    )
-    suite = pyperf.BenchmarkSuite.load(str(results))
-    times = {name: list(suite.get_benchmark(name).get_values()) for name in suite.get_benchmark_names()}
+    times: dict[str, list[float]] = {}
+    for index in range(ROUNDS):
+        results = directory / f"in_process_{index}.json"
+        options = ["--quiet", f"--inherit-environ={threads}", "-o", str(results)]
+        subprocess.run(  # noqa: S603 - this project's own script
+            [sys.executable, str(HERE / "in_process.py"), *options],
+            check=True,
+            stdout=subprocess.DEVNULL,
+            env={**os.environ, threads: "1"},
+        )
+        for benchmark in pyperf.BenchmarkSuite.load(str(results)):
+            times.setdefault(benchmark.get_name(), []).extend(benchmark.get_values())
 
     def row(what: str, name: str, reference: str, wanted: str) -> Row:
         return Row(what, reference, times[name], times[reference], "s", wanted)
