@@ -34,7 +34,7 @@ test-fast: setup  ## run the tests that need no ROS graph
 soak: setup  ## run the long tests, about forty minutes; each says what it saw
 	@$(BIN)/python -m pytest test/soak
 
-bench: setup  ## measure the ratios of the README's performance section, about ten minutes on an idle machine
+bench: setup  ## measure the ratios of the README's performance section, about a quarter of an hour on an idle machine
 	@$(BIN)/python bench/run.py
 
 bench-memory: setup  ## measure the node's memory over ten minutes at 1 kHz

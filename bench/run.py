@@ -104,7 +104,7 @@ def of_nodes(directory: Path) -> list[Row]:
         return [pair[0] for pair in pairs], [pair[1] for pair in pairs]
 
     starts = alternately(
-        lambda: nodes.start(peer, nodes.SIM, directory), lambda: nodes.start(peer, bare, directory), 15
+        lambda: nodes.start(peer, nodes.SIM, directory), lambda: nodes.start(peer, bare, directory), 45
     )
     loads = alternately(
         lambda: nodes.processor_time(peer, nodes.SIM, directory),

@@ -27,7 +27,9 @@ def run_csv(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("suffix, start", [("png", b"\x89PNG"), ("svg", b"<?xml")])
+@pytest.mark.parametrize(
+    "suffix, start", [("png", b"\x89PNG"), ("svg", b"<?xml"), ("html", b"<!DOCTYPE html>")]
+)
 def test_picture_is_what_its_name_says(suffix: str, start: bytes, run_csv: Path) -> None:
     picture = run_csv.with_suffix(f".{suffix}")
     assert run(["plot", str(run_csv), "--output", str(picture)]) == 0
@@ -67,7 +69,7 @@ def test_wrong_use_is_one_line_and_status_2(
 
 def test_a_picture_of_another_kind_is_refused(run_csv: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["plot", str(run_csv), "--output", "x.pdf"]) == 2
-    assert "x.pdf: expected a name ending in .png or .svg" in capsys.readouterr().err
+    assert "--output: x.pdf: expected a name ending in .png, .svg, .html" in capsys.readouterr().err
 
 
 def test_more_runs_than_can_be_told_apart_are_refused(

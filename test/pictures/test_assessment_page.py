@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import threading
@@ -15,18 +14,12 @@ from queue import SimpleQueue
 
 import pytest
 
+from browser import CHROMIUM, QUIET, needs_browser
 from yawdamp_ros import load_vehicle
 from yawdamp_ros.analysis import MEASURES, assess
 from yawdamp_ros.cli import run
 from yawdamp_ros.pictures.assessment_page import assessment_page
 from yawdamp_ros.vehicle import builtin_vehicles
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-QUIET = [
-    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync"),
-    *("--disable-background-networking", "--disable-component-update", "--disable-extensions"),
-    *("--enable-logging=stderr", "--window-size=1400,1200", "--remote-debugging-port=0"),
-]
 
 # A frame of the width in question, which is told about from outside: the page has no part in it.
 FRAME = """<!DOCTYPE html><link rel="icon" href="data:,"><body>
@@ -88,7 +81,13 @@ class Served(ThreadingHTTPServer):
         """What a browser shows of page.html in a frame of a width."""
         (self.directory / "frame.html").write_text(FRAME.format(width=width), encoding="utf-8")
         command = [
-            *(str(CHROMIUM), *QUIET, *flags, f"--user-data-dir={self.directory / 'profile'}"),
+            *(
+                str(CHROMIUM),
+                *QUIET,
+                "--remote-debugging-port=0",
+                *flags,
+                f"--user-data-dir={self.directory / 'profile'}",
+            ),
             f"http://127.0.0.1:{self.server_port}/frame.html",
         ]
         with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
@@ -111,7 +110,7 @@ def served(tmp_path: Path) -> Iterator[Served]:
         thread.join()
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="no chromium is installed")
+@needs_browser
 @pytest.mark.parametrize("width", [1280, 390])
 def test_page_fits_and_shows_everything(
     width: int, served: Served, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -138,7 +137,7 @@ def test_page_fits_and_shows_everything(
     assert served.asked == {"/frame.html", "/page.html", "/told"}
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="no chromium is installed")
+@needs_browser
 def test_page_of_an_unstable_vehicle_leaves_out_what_there_is_not(served: Served, tmp_path: Path) -> None:
     car = load_vehicle("single_vehicle", ["units.0.axles.1.cornering_stiffness=3e4"])
     (tmp_path / "page.html").write_text(assessment_page(car, "consistent", assess(car, speed=40.0)))

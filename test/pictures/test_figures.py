@@ -29,7 +29,7 @@ def test_a_run_is_drawn_with_its_paths_where_they_are_known() -> None:
         "steer angle, rad",
         "yaw, rad",
         "yaw rate, rad/s",
-        "lateral acceleration, m/s$^2$",
+        "lateral acceleration, m/s²",
         "articulation, rad",
         "y (left), m",
     ]

@@ -27,7 +27,8 @@ def main(argv: Sequence[str]) -> int:
     findings = assess(vehicle, model, options.speed, options.srt)
     if options.html:
         # Here and not above: what the page needs takes longer to load than most assessments to run.
-        from yawdamp_ros.pictures.assessment_page import assessment_page, save_page  # noqa: PLC0415
+        from yawdamp_ros.pictures.assessment_page import assessment_page  # noqa: PLC0415
+        from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
 
         save_page(assessment_page(vehicle, model, findings), options.html)
     if options.format == "json":

@@ -4,11 +4,14 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
+from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.options import Parser
 from yawdamp_ros.logs import is_recording
 from yawdamp_ros.logs.response_reader import read_response_csv
 from yawdamp_ros.logs.response_recording import read_response_recording
 from yawdamp_ros.stepping import Response
+
+KINDS = (".png", ".svg", ".html")
 
 
 def main(argv: Sequence[str]) -> int:
@@ -17,7 +20,7 @@ def main(argv: Sequence[str]) -> int:
         "plot",
         "Steer angle, yaw, yaw rate, lateral acceleration and articulation over time, and the paths where a\n"
         "run holds them. Several runs are compared in one picture.",
-        "python -m yawdamp_ros plot runs/20261121-120000_interlink --output run.png\n"
+        "python -m yawdamp_ros plot runs/20261121-120000_interlink --output run.html\n"
         "  python -m yawdamp_ros plot interlink.csv interlink_rated_tyres.csv --output comparison.svg",
     )
     parser.add_argument(
@@ -30,17 +33,31 @@ def main(argv: Sequence[str]) -> int:
         "--output",
         default="plot.png",
         metavar="FILE",
-        help="PNG or SVG, by the file's name (default: plot.png)",
+        help="PNG, SVG or an HTML page to zoom into, by the file's name (default: plot.png)",
     )
     options = parser.parse_args(argv)
+    kind = Path(options.output).suffix.lower()
+    if kind not in KINDS:
+        message = f"--output: {options.output}: expected a name ending in {', '.join(KINDS)}"
+        raise UsageError(message)
     runs = [(name, _read(Path(run))) for name, run in zip(_names(options.runs), options.runs, strict=True)]
-    # Here and not above: matplotlib takes longer to load than a wrong file name takes to find.
-    from yawdamp_ros.pictures import save  # noqa: PLC0415
-    from yawdamp_ros.pictures.runs import runs_figure  # noqa: PLC0415
-
-    save(runs_figure(runs), options.output)
+    _draw(runs, options.output, kind)
     print(options.output)
     return 0
+
+
+def _draw(runs: Sequence[tuple[str, Response]], output: str, kind: str) -> None:
+    # Here and not above: what draws takes longer to load than a wrong file name takes to find.
+    if kind == ".html":
+        from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
+        from yawdamp_ros.pictures.runs_page import runs_page  # noqa: PLC0415
+
+        save_page(runs_page(runs), output)
+    else:
+        from yawdamp_ros.pictures import save  # noqa: PLC0415
+        from yawdamp_ros.pictures.runs import runs_figure  # noqa: PLC0415
+
+        save(runs_figure(runs), output)
 
 
 def _read(path: Path) -> Response:

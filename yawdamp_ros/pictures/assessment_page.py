@@ -4,7 +4,6 @@ import json
 import math
 from collections.abc import Sequence
 from importlib.resources import files
-from pathlib import Path
 from string import Template
 
 import numpy as np
@@ -24,7 +23,6 @@ from yawdamp_ros.analysis import (
 from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.pictures.errors import PictureError
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, Unit, Vehicle
 
 OVERHANG = 1.1
@@ -76,21 +74,6 @@ def assessment_page(vehicle: Vehicle, model: str, findings: Sequence[Finding]) -
     # A name from a vehicle file must not end the script that holds it.
     held = json.dumps(data).replace("<", "\\u003c")
     return template.substitute(title=f"{vehicle.name}: lateral performance", data=held)
-
-
-def save_page(text: str, path: str | Path) -> None:
-    """Write a page.
-
-    Raises
-    ------
-    PictureError
-        If the file cannot be written.
-    """
-    try:
-        Path(path).write_text(text, encoding="utf-8")
-    except OSError as error:
-        message = f"{path}: cannot be written: {error.strerror}"
-        raise PictureError(message) from error
 
 
 def _row(finding: Finding) -> dict[str, object]:

@@ -1,0 +1,114 @@
+"""The curves of runs as one HTML page, to zoom into and to read values off."""
+
+import html
+from collections.abc import Sequence
+
+from plotly.graph_objects import Figure, Scatter
+from plotly.subplots import make_subplots
+
+from yawdamp_ros.pictures.run_panels import run_panels
+from yawdamp_ros.stepping import Response
+
+DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+"""One a run."""
+MOST_SAMPLES = 20_000
+"""Of one curve: a browser draws no more in a moment."""
+PANEL_HEIGHT = 280
+"""In pixels."""
+
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>
+body {{ margin: 0 auto; max-width: 80rem; font-family: sans-serif }}
+h1, p {{ margin: 1rem; font-size: 1rem }}
+</style>
+</head>
+<body>
+<h1>{title}</h1>
+{note}{plot}
+</body>
+</html>
+"""
+
+
+def runs_page(runs: Sequence[tuple[str, Response]]) -> str:
+    """Draw the panels of runs on a page that needs nothing else.
+
+    Of a long run the curves show every so many samples, which the page says.
+
+    Parameters
+    ----------
+    runs : sequence of (str, Response)
+        As for `run_panels`.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    PictureError
+        If there are more runs, or more units, than can be told apart.
+    """
+    panels = run_panels(runs)
+    names = [html.escape(name) for name, _ in runs]
+    strides = [-(-len(response.time) // MOST_SAMPLES) for _, response in runs]
+    figure = make_subplots(rows=len(panels), cols=1, subplot_titles=[panel.title for panel in panels])
+    listed = set()
+    for row, panel in enumerate(panels, 1):
+        for curve in panel.curves:
+            name = curve.name if len(runs) == 1 else f"{curve.name}, {names[curve.run]}"
+            figure.add_trace(
+                Scatter(
+                    x=curve.x[:: strides[curve.run]],
+                    y=curve.y[:: strides[curve.run]],
+                    name=name,
+                    legendgroup=name,
+                    showlegend=name not in listed,
+                    line={
+                        "color": curve.colour,
+                        "dash": DASHES[curve.run],
+                        "width": 1.5,
+                        "shape": "hv" if panel.held else "linear",
+                        "simplify": False,
+                    },
+                ),
+                row=row,
+                col=1,
+            )
+            listed.add(name)
+        # All that is over time is zoomed into together.
+        zoomed = "x" if row > 1 and panel.x_label == panels[0].x_label else None
+        figure.update_xaxes(title_text=panel.x_label, matches=zoomed, row=row, col=1)
+        figure.update_yaxes(title_text=panel.y_label, row=row, col=1)
+    _lay_out(figure, len(panels))
+    plot = figure.to_html(
+        full_html=False,
+        include_plotlyjs=True,
+        include_mathjax=False,
+        div_id="runs",
+        # A run stays with whoever looks at it: no button sends it anywhere.
+        config={"displaylogo": False, "responsive": True, "showSendToCloud": False, "plotlyServerURL": ""},
+    )
+    thinned = [
+        f"{name}: one sample in {stride} is shown"
+        for name, stride in zip(names, strides, strict=True)
+        if stride > 1
+    ]
+    note = f"<p>{'; '.join(thinned)}</p>\n" if thinned else ""
+    return PAGE.format(title=", ".join(names), note=note, plot=plot)
+
+
+def _lay_out(figure: Figure, panels: int) -> None:
+    figure.update_layout(
+        template="plotly_white",
+        height=PANEL_HEIGHT * panels,
+        hovermode="x unified",
+        legend={"orientation": "h", "yanchor": "bottom", "y": 1.01, "x": 0.0},
+        margin={"l": 70, "r": 45, "t": 60, "b": 50},
+        modebar={"orientation": "v"},
+    )
