@@ -104,7 +104,7 @@ def highest_rate(keeps_up: Callable[[float, Path], bool], directory: Path) -> fl
     return RATES[low]
 
 
-def latencies(peer: Peer, directory: Path, commands: int = 300) -> list[float]:
+def latencies(peer: Peer, directory: Path, commands: int = 1000) -> list[float]:
     """Time in s from a steering message to the first output that shows it, at 100 Hz."""
     moments = random.Random(0)  # noqa: S311 - any moments will do
     arrived: dict[float, float] = {}
