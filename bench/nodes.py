@@ -22,6 +22,8 @@ SIM = [sys.executable, "-m", "yawdamp_ros", "sim"]
 RATES = [round(200.0 * 1.05**power) * 1.0 for power in range(72)]
 """In Hz, 200 to 6400."""
 RATE_SECONDS = 10
+WARM_UP = 0.5
+"""Steer angle in rad that is not among those measured."""
 SETTLING = 2.0
 """Seconds until a node that has started is as it will be."""
 
@@ -116,6 +118,13 @@ def latencies(peer: Peer, directory: Path, commands: int = 1000) -> list[float]:
     publisher = peer.node.create_publisher(Float64, "steering", 10)
     sent: dict[float, float] = {}
     with running(SIM, directory):
+        deadline = time.monotonic() + 30.0
+        while WARM_UP not in arrived:  # neither side knows when the other has found it
+            if time.monotonic() > deadline:
+                message = "no output shows any command"
+                raise TimeoutError(message)
+            publisher.publish(Float64(data=WARM_UP))
+            time.sleep(0.05)
         time.sleep(SETTLING)
         for index in range(commands):
             angle = 0.01 + 1e-5 * index

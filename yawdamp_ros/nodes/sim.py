@@ -92,6 +92,7 @@ class SimNode(Node):
             self.settings.steering_time_constant,
             self.settings.steering_rate_limit,
         )
+        self._subscription: SteeringSubscription | None = None
         self._command = self._command_source()
         if self.settings.speed_source == "topic":
             subscribe_speed(self, self._speed)
@@ -188,6 +189,8 @@ class SimNode(Node):
     def _step(self, steps: int) -> Sample:
         """Take steps, with what came in since the last of them acting from the first of these on."""
         stepper = self._stepper
+        if self._subscription is not None:
+            self._subscription.take()
         if steps == 0 or self._reset_wanted or self._speed.speed != stepper.model.speed:
             if steps:
                 stepper.advance()

@@ -80,9 +80,20 @@ class SteeringSubscription:
         self._target = target
         self._step = step
         self._now = now
-        node.create_subscription(
+        self._subscription = node.create_subscription(
             message_class(type_name), "steering", self._receive, QUEUE_DEPTH, event_callbacks=QUIET
         )
+
+    def take(self) -> None:
+        """Take what has arrived, which the executor may only come to after the sample that is due."""
+        subscription = self._subscription
+        for _ in range(QUEUE_DEPTH):
+            # As the executor takes: rclpy has no call of its own for it.
+            with subscription.handle:
+                taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
+            if taken is None:
+                break
+            self._receive(taken[0])
 
     def _receive(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
         command = self._angle(message, self._joint)
