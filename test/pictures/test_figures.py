@@ -40,6 +40,13 @@ def test_a_run_is_drawn_with_its_paths_where_they_are_known() -> None:
     assert "y (left), m" not in labels(runs_figure([("run", without)]))
 
 
+def test_a_curve_with_a_gap_is_drawn() -> None:
+    gap = RESPONSE.yaw_rate.copy()
+    gap[7, 1] = np.nan
+    figure = runs_figure([("run", dataclasses.replace(RESPONSE, yaw_rate=gap))])
+    assert [len(axes.lines) for axes in figure.axes] == [1, 3, 3, 3, 2, 3]
+
+
 def test_one_unit_has_no_articulation_panel() -> None:
     response = simulate(load_vehicle("single_vehicle"), LaneChange(), 1.0, sample_period=0.05)
     assert "articulation, rad" not in labels(runs_figure([("car", response)]))

@@ -81,7 +81,6 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
             Curve(unit, run, colours[unit], along, across)
             for run, response in enumerate(responses)
             for unit, along, across in zip(response.unit_names, x(response).T, y(response).T, strict=True)
-            if np.isfinite(across).all()
         ]
 
     def time(response: Response) -> FloatArray:
@@ -97,6 +96,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
         for run, response in enumerate(responses)
         for joint, angles in enumerate(response.articulation.T)
     ]
+    paths = of_units(lambda run: run.x, lambda run: run.y)
     panels = [
         Panel("time, s", "steer angle, rad", "", steering, held=True),
         Panel("time, s", "yaw, rad", "", of_units(time, lambda run: run.yaw)),
@@ -109,7 +109,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
             "x, m",
             "y (left), m",
             "paths of the centres of gravity, scales unequal",
-            of_units(lambda run: run.x, lambda run: run.y),
+            [curve for curve in paths if np.isfinite(curve.x).all() and np.isfinite(curve.y).all()],
         ),
     ]
     return [panel for panel in panels if panel.curves]
