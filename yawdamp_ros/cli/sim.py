@@ -10,7 +10,9 @@ from yawdamp_ros.nodes.stop_request import StopRequest
 if TYPE_CHECKING:
     import argparse
 
-    from yawdamp_ros.nodes.sim import SimNode
+    from rclpy.node import Node
+
+    from yawdamp_ros.nodes.sim import Simulator
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -39,58 +41,60 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
         message = "--output: there is no recording with --no-record"
         raise UsageError(message)
     require_ros()
-    from yawdamp_ros.nodes.graph import ros_graph  # noqa: PLC0415
-    from yawdamp_ros.nodes.sim import SimNode  # noqa: PLC0415
+    from yawdamp_ros.nodes.graph import join, ros_graph  # noqa: PLC0415
 
     with ros_graph(ros_arguments):
-        node = SimNode(_overrides(options))
+        node = join("yawdamp_sim", _overrides(options))
+        # DDS takes 0.1 s to find the others on the graph: the rest loads meanwhile.
+        from yawdamp_ros.nodes.sim import Simulator  # noqa: PLC0415
+
+        simulator = Simulator(node)
         try:
-            served = _run(node, stop)
+            served = _run(node, simulator, stop)
         finally:
-            node.close()
-        _report(node)
-    good = served and not node.stopped and node.recorder.failure is None and not node.recorder.lost
-    return 0 if good else 1
+            simulator.close()
+        _report(simulator)
+    return 0 if served and simulator.flawless else 1
 
 
-def _run(node: "SimNode", stop: StopRequest) -> bool:
+def _run(node: "Node", simulator: "Simulator", stop: StopRequest) -> bool:
     if stop.requested:
         return True
     from yawdamp_ros.nodes.graph import spin  # noqa: PLC0415
 
-    node.publish_first()
-    with _progress(node) as progress:
+    simulator.publish_first()
+    with _progress(simulator) as progress:
         gc.freeze()  # what there is by now is never garbage
         gc.enable()
-        node.start()
-        return spin(node, stop, lambda: node.finished, progress)
+        simulator.start()
+        return spin(node, stop, lambda: simulator.finished, progress)
 
 
 @contextmanager
-def _progress(node: "SimNode") -> Iterator[Callable[[], None]]:
+def _progress(simulator: "Simulator") -> Iterator[Callable[[], None]]:
     """Something that shows how far a run is whose end is known."""
-    if not node.settings.duration:
+    if not simulator.settings.duration:
         yield lambda: None
         return
     # It takes a while to import, which neither the first sample nor the clock waits for.
     from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
 
     with progress_bar() as bar:
-        task = bar.add_task("simulating", total=node.settings.duration)
-        yield lambda: bar.update(task, completed=node.simulated_time)
+        task = bar.add_task("simulating", total=simulator.settings.duration)
+        yield lambda: bar.update(task, completed=simulator.simulated_time)
 
 
-def _report(node: "SimNode") -> None:
+def _report(simulator: "Simulator") -> None:
     from yawdamp_ros.cli.peaks_table import print_peaks  # noqa: PLC0415
 
-    print_peaks(node.model, node.peaks)
-    if node.steps_given_up:
-        lost = node.grid.seconds(node.steps_given_up)
-        print(f"late: {node.steps_given_up} steps given up, {lost:g} s behind the steady clock")
-    if node.stopped:
-        print(f"stopped at {node.simulated_time:g} s: {node.stopped}")
-    if node.recorder.directory is not None:
-        print(f"run: {node.recorder.directory}")
+    print_peaks(simulator.model, simulator.peaks)
+    if simulator.steps_given_up:
+        lost = simulator.grid.seconds(simulator.steps_given_up)
+        print(f"late: {simulator.steps_given_up} steps given up, {lost:g} s behind the steady clock")
+    if simulator.stopped:
+        print(f"stopped at {simulator.simulated_time:g} s: {simulator.stopped}")
+    if simulator.recorder.directory is not None:
+        print(f"run: {simulator.recorder.directory}")
 
 
 def _parser() -> "argparse.ArgumentParser":

@@ -2,10 +2,11 @@
 
 import threading
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import rclpy
 from rclpy.exceptions import ParameterException
@@ -13,6 +14,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
 from yawdamp_ros.files import read_text
@@ -61,6 +63,12 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
         raise NodeError(_first_line(error)) from error
     finally:
         rclpy.try_shutdown()
+
+
+def join(name: str, overrides: Mapping[str, Any]) -> Node:
+    """Put a node on the graph, with parameters that win over those of the command line's ``--ros-args``."""
+    parameters = [Parameter(parameter, value=value) for parameter, value in overrides.items()]
+    return Node(name, parameter_overrides=parameters)
 
 
 def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: Callable[[], None]) -> bool:

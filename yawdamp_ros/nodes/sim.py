@@ -1,7 +1,7 @@
-"""The simulator node: a timer, fixed steps, messages out."""
+"""The simulator of a node: a timer, fixed steps, messages out."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -48,13 +48,13 @@ DIAGNOSTICS_PERIOD = 1.0
 """Seconds of real time."""
 
 
-class SimNode(Node):
+class Simulator:
     """Steps the model as the steady clock asks for, and publishes and records every sample.
 
     Parameters
     ----------
-    overrides : mapping of str to object
-        Parameters that win over those of the command line's ``--ros-args``.
+    node : Node
+        What it declares its parameters on, listens by and publishes by.
 
     Raises
     ------
@@ -62,12 +62,9 @@ class SimNode(Node):
         If a parameter, the vehicle or the run directory cannot be used.
     """
 
-    def __init__(self, overrides: Mapping[str, Any]) -> None:
-        super().__init__(
-            "yawdamp_sim",
-            parameter_overrides=[Parameter(name, value=value) for name, value in overrides.items()],
-        )
-        self.settings = declare_parameters(self)
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self.settings = declare_parameters(node)
         # Read once: the file may change or go while the node runs, but its vehicle does not.
         changes = tuple(change for change in self.settings.vehicle_overrides if change)
         self._source = VehicleSource(vehicle_text(self.settings.vehicle), changes)
@@ -95,8 +92,8 @@ class SimNode(Node):
         self._subscription: SteeringSubscription | None = None
         self._command = self._command_source()
         if self.settings.speed_source == "topic":
-            subscribe_speed(self, self._speed)
-        self._outputs = Outputs(self, self.model.vehicle, self.settings)
+            subscribe_speed(node, self._speed)
+        self._outputs = Outputs(node, self.model.vehicle, self.settings)
         self._start_time = time.time_ns()
         self.recorder = Recorder(self._open_run)
         if self.settings.record:
@@ -110,6 +107,11 @@ class SimNode(Node):
         return lasted or bool(self.stopped)
 
     @property
+    def flawless(self) -> bool:
+        """Whether the run was not stopped and everything was recorded that was to be."""
+        return not (self.stopped or self.recorder.lost or self.recorder.failure)
+
+    @property
     def simulated_time(self) -> float:
         """Simulated time since the start in s."""
         return self.grid.seconds(self._stepper.step)
@@ -118,39 +120,39 @@ class SimNode(Node):
         """Publish the first sample, then say what there is to be said: rclpy's first word takes long."""
         self._publish(steps=0)
         if growing := growth(self.model):
-            self.get_logger().warning(growing)
+            self._node.get_logger().warning(growing)
         if self.recorder.directory is not None:
-            self.get_logger().info(f"recording to {self.recorder.directory}")
+            self._node.get_logger().info(f"recording to {self.recorder.directory}")
         if self.settings.publish_tf and self._outputs.without_tf:
-            self.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
-        if self.get_parameter("use_sim_time").value:
-            self.get_logger().warning("use_sim_time: not followed, for this node makes the time")
+            self._node.get_logger().info(f"no frames on /tf: {self._outputs.without_tf}")
+        if self._node.get_parameter("use_sim_time").value:
+            self._node.get_logger().warning("use_sim_time: not followed, for this node makes the time")
 
     def start(self) -> None:
         """Begin to serve: from now on the steady clock counts."""
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
         self._pacer = Pacer(self.grid.period_ns, self.settings.real_time_factor, time.monotonic_ns())
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = self.create_timer(self._timer_period(), self._on_timer, clock=steady)
-        self.add_on_set_parameters_callback(self._check_parameters)
-        self.add_post_set_parameters_callback(self._use_parameters)
-        self.create_service(Trigger, "~/reset", self._on_reset)
-        self.create_service(SetBool, "~/pause", self._on_pause)
-        self.create_service(Trigger, "~/step", self._on_step)
-        self.create_service(SetBool, "~/record", self._on_record)
-        self._diagnosis = Diagnosis(self.get_fully_qualified_name(), self.model.vehicle.name)
-        self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
-        self._neighbours = Neighbours(self, ("steering", "speed"), self._outputs.topics)
+        self._timer = self._node.create_timer(self._timer_period(), self._on_timer, clock=steady)
+        self._node.add_on_set_parameters_callback(self._check_parameters)
+        self._node.add_post_set_parameters_callback(self._use_parameters)
+        self._node.create_service(Trigger, "~/reset", self._on_reset)
+        self._node.create_service(SetBool, "~/pause", self._on_pause)
+        self._node.create_service(Trigger, "~/step", self._on_step)
+        self._node.create_service(SetBool, "~/record", self._on_record)
+        self._diagnosis = Diagnosis(self._node.get_fully_qualified_name(), self.model.vehicle.name)
+        self._diagnostics = self._node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._neighbours = Neighbours(self._node, ("steering", "speed"), self._outputs.topics)
         self._looked_at = time.monotonic_ns()
-        self.create_timer(DIAGNOSTICS_PERIOD, self._diagnose, clock=steady)
+        self._node.create_timer(DIAGNOSTICS_PERIOD, self._diagnose, clock=steady)
 
     def close(self) -> None:
         """Finish the recording and let subscribers have what was published."""
         self.recorder.stop()
         if self.recorder.lost or self.recorder.failure is not None:
             reason = f"{self.recorder.failure}; " if self.recorder.failure is not None else ""
-            self.get_logger().error(f"{reason}{self.recorder.lost} messages not recorded")
-        if self.context.ok():
+            self._node.get_logger().error(f"{reason}{self.recorder.lost} messages not recorded")
+        if self._node.context.ok():
             self._outputs.wait_for_subscribers()
 
     def _on_timer(self) -> None:
@@ -158,7 +160,7 @@ class SimNode(Node):
         self._worst_lateness = max(self._worst_lateness, due.lateness / SECOND)
         if due.given_up:
             self.steps_given_up += due.given_up * self.grid.steps_per_sample
-            self.get_logger().warning(
+            self._node.get_logger().warning(
                 f"late by more than can be made up for: {self.steps_given_up} steps given up so far",
                 throttle_duration_sec=WARNING_PERIOD,
                 throttle_time_source_type=STEADY,
@@ -177,7 +179,7 @@ class SimNode(Node):
         limits = self.settings.max_lateral_acceleration, self.settings.max_articulation
         if wrong := meaningless(sample, self.model.vehicle.unit_names, *limits):
             self.stopped = f"{wrong}, where the linear model means nothing"
-            self.get_logger().error(f"stopped at {self.simulated_time:g} s: {self.stopped}")
+            self._node.get_logger().error(f"stopped at {self.simulated_time:g} s: {self.stopped}")
             return
         stamp = self._stamp(self._stepper.step)
         serialised = self._outputs.publish(sample, stamp)
@@ -225,7 +227,7 @@ class SimNode(Node):
             manoeuvre = make_manoeuvre(self.settings.manoeuvre, self.settings.manoeuvre_settings)
             return lambda step: manoeuvre(self.grid.seconds(step))
         self._subscription = SteeringSubscription(
-            self,
+            self._node,
             self.settings.steering_type,
             self.settings.steering_joint,
             self._input,
@@ -278,7 +280,7 @@ class SimNode(Node):
         try:
             if request.data:
                 self.recorder.start(self._new_directory(numbered=True))
-                self.get_logger().info(f"recording to {self.recorder.directory}")
+                self._node.get_logger().info(f"recording to {self.recorder.directory}")
             else:
                 self.recorder.stop()
         except YawdampError as error:
@@ -300,7 +302,7 @@ class SimNode(Node):
             start_time=self._start_time,
             parameters=asdict(self.settings),
             vehicle=self._source,
-            topics=[*(self.resolve_topic_name(name) for name in INPUT_TYPES), *self._outputs.topics],
+            topics=[*(self._node.resolve_topic_name(name) for name in INPUT_TYPES), *self._outputs.topics],
         )
 
     def _diagnose(self) -> None:
@@ -334,7 +336,7 @@ class SimNode(Node):
         if self.recorder.lost > self._loss_said:
             self._loss_said = self.recorder.lost
             reason = self.recorder.failure or "the disk does not keep up"
-            self.get_logger().error(
+            self._node.get_logger().error(
                 f"{reason}; {self._loss_said} messages not recorded, the simulation goes on",
                 throttle_duration_sec=WARNING_PERIOD,
                 throttle_time_source_type=STEADY,
