@@ -1,20 +1,23 @@
 """Joining the ROS graph and leaving it in good order."""
 
 import threading
+import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import rclpy
+from rclpy.duration import Duration
 from rclpy.exceptions import ParameterException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
 from rclpy.signals import SignalHandlerOptions
 
 from yawdamp_ros.files import read_text
@@ -25,6 +28,9 @@ RCLError = rclpy_implementation.RCLError
 
 SPIN_PERIOD = 0.05
 """Longest time in s that the executor waits on end."""
+
+FAREWELL = 0.25
+"""Seconds. What is published arrives within some ms, but Fast DDS has it acknowledged only every 3 s."""
 
 LARGEST_PARAMETER_FILE = 1 << 17
 """Characters."""
@@ -93,6 +99,13 @@ def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: 
         ended.set()
         waker.join()
         executor.shutdown()
+
+
+def wait_for_subscribers(publishers: Iterable[Publisher]) -> None:
+    """Let subscribers have what was published, before the node goes."""
+    deadline = time.monotonic() + FAREWELL
+    for publisher in publishers:
+        publisher.wait_for_all_acked(Duration(seconds=max(deadline - time.monotonic(), 0.0)))
 
 
 def _wake(executor: SingleThreadedExecutor, ended: threading.Event) -> None:

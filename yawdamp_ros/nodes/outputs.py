@@ -1,15 +1,14 @@
 """What the simulator publishes of a sample."""
 
-import time
 from typing import Any
 
-from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
+from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.messages import Noise, OutputMessages
 from yawdamp_ros.nodes.parameters import SimParameters
 from yawdamp_ros.nodes.scene import markers, transforms
@@ -83,11 +82,9 @@ class Outputs:
             self._markers.publish(markers(self._vehicle, sample, stamp, self._frame_prefix))
         return serialised
 
-    def wait_for_subscribers(self) -> None:
-        """Let subscribers have what was published; one that hangs is not waited for longer than a second."""
-        deadline = time.monotonic() + 1.0
-        for publisher in self._publishers:
-            publisher.wait_for_all_acked(Duration(seconds=max(deadline - time.monotonic(), 0.0)))
+    def close(self) -> None:
+        """Let subscribers have what was published."""
+        wait_for_subscribers(self._publishers)
 
 
 def _tf_publisher(node: Node) -> tuple[Any, Any, str]:

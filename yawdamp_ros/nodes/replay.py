@@ -4,7 +4,6 @@ import threading
 import time
 from collections.abc import Callable
 
-from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
@@ -12,6 +11,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
 from yawdamp_ros.logs import SteeringLog
+from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.stepping.time_grid import nanoseconds
 
@@ -109,7 +109,7 @@ class ReplayNode(Node):
 
     def close(self) -> None:
         """Let subscribers have what was published."""
-        self._publisher.wait_for_all_acked(Duration(seconds=1))
+        wait_for_subscribers([self._publisher])
 
     def _wait_while_paused(self) -> float:
         """Wait for the pause to end; return how long it was in s."""

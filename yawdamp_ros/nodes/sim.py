@@ -153,7 +153,7 @@ class Simulator:
             reason = f"{self.recorder.failure}; " if self.recorder.failure is not None else ""
             self._node.get_logger().error(f"{reason}{self.recorder.lost} messages not recorded")
         if self._node.context.ok():
-            self._outputs.wait_for_subscribers()
+            self._outputs.close()
 
     def _on_timer(self) -> None:
         due = self._pacer.due(time.monotonic_ns())
