@@ -103,9 +103,7 @@ def of_nodes(directory: Path) -> list[Row]:
         pairs = [(one(), other()) for _ in range(times)]
         return [pair[0] for pair in pairs], [pair[1] for pair in pairs]
 
-    starts = alternately(
-        lambda: nodes.start(peer, nodes.SIM, directory), lambda: nodes.start(peer, bare, directory), 45
-    )
+    starts = nodes.starts(peer, directory)
     loads = alternately(
         lambda: nodes.processor_time(peer, nodes.SIM, directory),
         lambda: nodes.processor_time(peer, bare, directory),
