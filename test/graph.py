@@ -60,6 +60,7 @@ class Graph:
         self._types: dict[str, type] = {}
         self._clients: dict[str, Any] = {}
         self._processes: list[subprocess.Popen[str]] = []
+        self._waited_for = 0
         self._domain = next(_DOMAINS)
         self.environment = {
             **os.environ,
@@ -101,7 +102,9 @@ class Graph:
             self.node.create_subscription(kind, topic, self.received[topic].append, 1000, raw=True)
 
     def messages(self, topic: str) -> list[Any]:
-        """Messages of a topic so far."""
+        """Messages of a topic so far; all there are, once the commands have ended."""
+        if all(process.poll() is not None for process in self._processes):
+            self._have_what_is_on_its_way(len(self._processes))
         return [deserialize_message(data, self._types[topic]) for data in self.received[topic]]
 
     def publisher(self, kind: type, topic: str) -> Any:  # noqa: ANN401 - rclpy's Publisher
@@ -171,6 +174,13 @@ class Graph:
         self._context.try_shutdown()
         self._thread.join()
         self.node.destroy_node()
+
+    def _have_what_is_on_its_way(self, of: int) -> None:
+        before = -1
+        while self._waited_for < of and (count := sum(map(len, self.received.values()))) > before:
+            before = count
+            time.sleep(SETTLING)
+        self._waited_for = of
 
     def _spin(self) -> None:
         with suppress(ExternalShutdownException):
