@@ -156,14 +156,14 @@ def holds(row: Row) -> str:
 
 
 def figure(values: Sequence[float], unit: str) -> str:
-    """Median and half the range between the quartiles."""
+    """Median and, of three values or more, half the range between the quartiles."""
     scale, unit = (1e6, "us") if unit == "s" and statistics.median(values) < 1e-3 else (1.0, unit)  # noqa: PLR2004
     scale, unit = (1e3, "ms") if unit == "s" and statistics.median(values) < 1.0 else (scale, unit)
-    spread = 0.0
+    spread = ""
     if len(values) > 2:  # noqa: PLR2004
         low, _, high = statistics.quantiles(values, n=4)
-        spread = (high - low) / 2
-    return f"{scale * statistics.median(values):.4g} ± {scale * spread:.2g} {unit}"
+        spread = f" ± {scale * (high - low) / 2:.2g}"
+    return f"{scale * statistics.median(values):.4g}{spread} {unit}"
 
 
 def machine() -> str:
