@@ -31,7 +31,7 @@ test: setup  ## run every test
 test-fast: setup  ## run the tests that need no ROS graph
 	@$(BIN)/python -m pytest -m "not graph"
 
-soak: setup  ## run the long tests, about forty minutes; each says what it saw
+soak: setup  ## run the long tests, about half an hour; each says what it saw
 	@$(BIN)/python -m pytest test/soak
 
 bench: setup  ## measure the ratios of the README's performance section, about a quarter of an hour on an idle machine
