@@ -17,6 +17,7 @@ from typing import Any
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.serialization import deserialize_message
@@ -57,6 +58,8 @@ class Graph:
     def __init__(self, directory: Path) -> None:
         self.directory = directory
         self.received: dict[str, list[bytes]] = defaultdict(list)
+        self.lost: dict[str, int] = defaultdict(int)
+        """Messages by topic that DDS says it lost: a reader without a processor for 0.3 s loses some."""
         self._types: dict[str, type] = {}
         self._clients: dict[str, Any] = {}
         self._processes: list[subprocess.Popen[str]] = []
@@ -99,7 +102,18 @@ class Graph:
         """Keep every message of some topics, as it came."""
         for topic, kind in topics.items():
             self._types[topic] = kind
-            self.node.create_subscription(kind, topic, self.received[topic].append, 1000, raw=True)
+
+            def lose(status: Any, topic: str = topic) -> None:  # noqa: ANN401 - a generated status
+                self.lost[topic] = status.total_count
+
+            self.node.create_subscription(
+                kind,
+                topic,
+                self.received[topic].append,
+                1000,
+                event_callbacks=SubscriptionEventCallbacks(message_lost=lose),
+                raw=True,
+            )
 
     def messages(self, topic: str) -> list[Any]:
         """Messages of a topic so far; all there are, once the commands have ended."""

@@ -58,3 +58,14 @@ def stepped_again(steering: list[tuple[int, Any]], samples: int) -> list[Sample]
             ahead.append(held)
         taken.append(stepper.run(ahead))
     return taken
+
+
+def check_all_came(arrived: list[Any], published: list[Any], lost: int) -> None:
+    """What must hold of messages that came: as published, in order, none missing but those that DDS counts.
+
+    Those before the first that came were published when nobody listened yet.
+    """
+    assert lost < len(published) / 10
+    assert len(arrived) + lost <= len(published)
+    rest = iter(published[len(published) - len(arrived) - lost :])
+    assert all(one in rest for one in arrived), f"{lost} lost"

@@ -13,10 +13,13 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
-from graph import Graph, has_handler, outcome, stamps, stop, until
-from runs import OUTPUTS, PERIOD, UNITS, recorded, run_directory, stepped_again
+from graph import SETTLING, Graph, has_handler, outcome, stamps, stop, until
+from runs import OUTPUTS, PERIOD, UNITS, check_all_came, recorded, run_directory, stepped_again
 from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.manoeuvres import Sine
+from yawdamp_ros.nodes.graph import join, ros_graph, spin
+from yawdamp_ros.nodes.sim import Simulator
+from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.share import share_directory
 
 pytestmark = pytest.mark.graph
@@ -37,31 +40,35 @@ def test_a_manoeuvre_arrives_over_the_graph_as_the_model_has_it(graph: Graph) ->
     messages = recorded(run)
     start, count = messages["/truck/imu"][0][0], len(messages["/truck/imu"])
     expected = simulate(load_vehicle("interlink"), Sine(), (count - 1) / 100, sample_period=0.01)
+
+    def samples(topic: str) -> list[int]:
+        found = [(stamp - start) // PERIOD for stamp in stamps(graph.messages(topic))]
+        check_all_came(found, list(range(count)), graph.lost[topic])
+        return found
+
     for index, unit in enumerate(UNITS):
         imu, odom = graph.messages(f"/{unit}/imu"), graph.messages(f"/{unit}/odom")
-        # From the first one that came, all are there.
-        first = (stamps(imu)[0] - start) // PERIOD
-        assert stamps(imu) == [start + PERIOD * sample for sample in range(first, count)]
-        assert stamps(odom) == [start + PERIOD * sample for sample in range(count - len(odom), count)]
-        yaw = expected.yaw[first:, index]
-        assert [message.angular_velocity.z for message in imu] == list(expected.yaw_rate[first:, index])
+        at = samples(f"/{unit}/imu")
+        assert [message.angular_velocity.z for message in imu] == list(expected.yaw_rate[at, index])
         assert [message.linear_acceleration.y for message in imu] == list(
-            expected.lateral_acceleration[first:, index]
+            expected.lateral_acceleration[at, index]
         )
+        yaw = expected.yaw[at, index]
         np.testing.assert_allclose([yaw_of(message.orientation) for message in imu], yaw, atol=1e-12)
         assert {message.linear_acceleration.z for message in imu} == {9.80665}
         assert {message.header.frame_id for message in imu} == {unit}
+        at = samples(f"/{unit}/odom")
         assert {(message.header.frame_id, message.child_frame_id) for message in odom} == {("odom", unit)}
         assert {message.twist.twist.linear.x for message in odom} == {load_vehicle("interlink").speed}
-        assert [message.pose.pose.position.x for message in odom] == list(expected.x[-len(odom) :, index])
-        assert [message.pose.pose.position.y for message in odom] == list(expected.y[-len(odom) :, index])
+        assert [message.pose.pose.position.x for message in odom] == list(expected.x[at, index])
+        assert [message.pose.pose.position.y for message in odom] == list(expected.y[at, index])
         scalars = [message.data for message in graph.messages(f"/{unit}/yaw")]
-        assert scalars == list(expected.yaw[-len(scalars) :, index])
-    joints = graph.messages("/joint_states")
+        check_all_came(scalars, list(expected.yaw[:, index]), graph.lost[f"/{unit}/yaw"])
+    joints, at = graph.messages("/joint_states"), samples("/joint_states")
     assert list(joints[0].name) == ["steering", "articulation_1", "articulation_2"]
     angles = np.array([message.position for message in joints])
-    np.testing.assert_array_equal(angles[:, 0], expected.steering_angle[-len(joints) :])
-    np.testing.assert_array_equal(angles[:, 1:], expected.articulation[-len(joints) :])
+    np.testing.assert_array_equal(angles[:, 0], expected.steering_angle[at])
+    np.testing.assert_array_equal(angles[:, 1:], expected.articulation[at])
     assert "trailer_2" in output
     assert f"run: {run.relative_to(graph.directory)}" in output
 
@@ -117,6 +124,24 @@ def test_bad_commands_are_refused_or_clamped_and_said(graph: Graph) -> None:
     assert "clamped to max_steering_angle" in errors
     applied = [message.data for _, message in recorded(run_directory(graph.directory))["/steering"]]
     assert applied == [0.0, 0.1, -0.3]
+
+
+def test_a_command_that_comes_before_the_first_sample_acts_from_the_first_step_on(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", graph.environment["ROS_DOMAIN_ID"])
+    path = graph.directory / "run"
+    with StopRequest() as request, ros_graph([]):
+        node = join("yawdamp_sim", {"record_directory": str(path)})
+        simulator = Simulator(node)
+        graph.steering_publisher().publish(Float64(data=0.1))
+        time.sleep(SETTLING)  # the command has come
+        simulator.publish_first()
+        simulator.start()
+        assert spin(node, request, lambda: simulator.samples_published > 5, lambda: None)
+        simulator.close()
+    (start, at_rest), (then, steered) = recorded(path)["/steering"]
+    assert (at_rest.data, steered.data, then - start) == (0.0, 0.1, 1_000_000)
 
 
 @pytest.mark.parametrize("reaction, last", [("hold", 0.1), ("zero", 0.0)])

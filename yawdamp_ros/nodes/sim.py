@@ -117,8 +117,13 @@ class Simulator:
         return self.grid.seconds(self._stepper.step)
 
     def publish_first(self) -> None:
-        """Publish the first sample, then say what there is to be said: rclpy's first word takes long."""
-        self._publish(steps=0)
+        """Publish the first sample, then say what there is to be said: rclpy's first word takes long.
+
+        It is at rest under the steering of the manoeuvre, or none: a command that has come by then acts from
+        the first step on, so that runs begin alike however long the start takes.
+        """
+        self._stepper.steer(self._angle(step=0))
+        self._publish(self._stepper.sample())
         if growing := growth(self.model):
             self._node.get_logger().warning(growing)
         if self.recorder.directory is not None:
@@ -172,10 +177,9 @@ class Simulator:
         if self.finished:
             self._timer.cancel()
         else:
-            self._publish(steps=self.grid.steps_per_sample)
+            self._publish(self._step(self.grid.steps_per_sample))
 
-    def _publish(self, steps: int) -> None:
-        sample = self._step(steps)
+    def _publish(self, sample: Sample) -> None:
         limits = self.settings.max_lateral_acceleration, self.settings.max_articulation
         if wrong := meaningless(sample, self.model.vehicle.unit_names, *limits):
             self.stopped = f"{wrong}, where the linear model means nothing"
@@ -193,15 +197,14 @@ class Simulator:
         stepper = self._stepper
         if self._subscription is not None:
             self._subscription.take()
-        if steps == 0 or self._reset_wanted or self._speed.speed != stepper.model.speed:
-            if steps:
-                stepper.advance()
+        if self._reset_wanted or self._speed.speed != stepper.model.speed:
+            stepper.advance()
             if self._reset_wanted:
                 stepper.reset()
                 self._reset_wanted = False
             stepper.change_speed(self._speed.speed)
             stepper.steer(self._angle(stepper.step))
-            if steps <= 1:
+            if steps == 1:
                 return stepper.sample()
             steps -= 1
         return stepper.run([self._angle(step) for step in range(stepper.step + 1, stepper.step + 1 + steps)])
