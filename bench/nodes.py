@@ -95,11 +95,14 @@ def sim_keeps_up(rate: float, directory: Path) -> bool:
 
 
 def highest_rate(keeps_up: Callable[[float, Path], bool], directory: Path) -> float:
-    """Highest rate in Hz, of some that are 5 % apart, that a node keeps up with."""
+    """Highest rate in Hz, of some that are 5 % apart, that a node keeps up with.
+
+    It may try twice: a tenth of a second that the machine takes for itself is not the node's limit.
+    """
     low, high = 0, len(RATES)
     while high - low > 1:
         middle = (low + high) // 2
-        if keeps_up(RATES[middle], directory):
+        if any(keeps_up(RATES[middle], directory) for _ in range(2)):
             low = middle
         else:
             high = middle
