@@ -128,9 +128,8 @@ def test_jumps_back_of_the_system_clock_hold_nothing_up_and_silence_nothing(grap
     for hours in range(1, 11):
         clock.jump(-hours)
         more_samples(graph, 20)
-    # Without care, a wait by that clock would last until something else happens, seconds or an hour; what a
-    # busy machine gives up is less than a second for each jump.
-    assert int(values(statuses("timing"))["steps_given_up"]) < 10_000
+    # Without care, a wait by that clock would last until something else happens, seconds or an hour.
+    assert int(values(statuses("timing"))["steps_given_up"]) < 1000
     more_samples(graph, 400)  # warnings of one kind are 5 s apart
     refuse(2)
     assert "speed: nan: refused or clamped, 2 refused" in ended(graph, process)
