@@ -5,7 +5,7 @@ import sys
 from dataclasses import fields
 from pathlib import Path
 
-from yawdamp_ros.nodes.parameters import SimParameters
+from yawdamp_ros.simulation.settings import SimParameters
 
 ROOT = Path(__file__).parents[1]
 HEAD = "| parameter | default | |\n|---|---|---|\n"

@@ -13,8 +13,8 @@ import parameter_table
 from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.cli.dispatch import COMMANDS
 from yawdamp_ros.manoeuvres import LaneChange
-from yawdamp_ros.nodes.parameters import SimParameters
 from yawdamp_ros.share import share_directory
+from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.vehicle import builtin_vehicles, parse_vehicle
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ from typing import Any
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder, RecordedMessage
 from yawdamp_ros.logs.steering_log import LARGEST_ANGLE, SteeringLog
-from yawdamp_ros.logs.steering_messages import STEERING_TYPES, message_stamp
+from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_stamp
 from yawdamp_ros.stepping.time_grid import SECOND
 
 LATEST = 2**31 * SECOND

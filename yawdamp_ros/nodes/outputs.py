@@ -10,8 +10,8 @@ from visualization_msgs.msg import MarkerArray
 
 from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.messages import Noise, OutputMessages
-from yawdamp_ros.nodes.parameters import SimParameters
 from yawdamp_ros.nodes.scene import markers, transforms
+from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.stepping import Sample
 from yawdamp_ros.vehicle import Vehicle
 

@@ -1,9 +1,8 @@
-"""Parameters of the simulator node: declared once, for the node, its help and the README."""
+"""Parameters of the simulator node, as `SimParameters` declares them."""
 
 import difflib
-import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +10,9 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from yawdamp_ros.dynamics import LOWEST_SPEED, MODELS
-from yawdamp_ros.logs.steering_messages import STEERING_TYPES
-from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.nodes.errors import NodeError
+from yawdamp_ros.simulation.settings import SimParameters
 
-UNSET = float("nan")
-"""A number that was not given: the manoeuvre's own default counts."""
-SLOWEST = 0.1
-"""Least real_time_factor; slower, a pause and single steps serve better."""
-FASTEST_RATE = 1e4
-"""Samples a second of real time that a node can be asked for."""
 _TYPE_NAMES = {
     bool: "true or false",
     int: "an integer",
@@ -30,150 +21,6 @@ _TYPE_NAMES = {
     list: "a list of strings",
 }
 _OF_RCLPY = ("use_sim_time", "qos_overrides.", "start_type_description_service")
-
-
-def _parameter(
-    default: object,
-    description: str,
-    *,
-    limits: tuple[float, float] | None = None,
-    choices: Iterable[str] = (),
-    dynamic: bool = False,
-) -> Any:  # noqa: ANN401 - dataclasses.field is typed by its default
-    metadata = {"description": description, "limits": limits, "choices": tuple(choices), "dynamic": dynamic}
-    if isinstance(default, list):
-        return field(default_factory=default.copy, metadata=metadata)
-    return field(default=default, metadata=metadata)
-
-
-# ruff: noqa: RUF009 - each default is a dataclasses.field
-@dataclass(frozen=True)
-class SimParameters:
-    """What the simulator node can be asked for."""
-
-    vehicle: str = _parameter("interlink", "builtin name or path of a vehicle file")
-    vehicle_overrides: list[str] = _parameter(
-        [""], "changes to the vehicle, each KEY=VALUE as in units.1.mass=4156"
-    )
-    model: str = _parameter("consistent", "linear model of the vehicle", choices=MODELS)
-    speed: float = _parameter(
-        0.0, "longitudinal speed in m/s; 0: the vehicle's own", limits=(0.0, 70.0), dynamic=True
-    )
-    speed_source: str = _parameter(
-        "parameter", "whose speed counts: this parameter's or the topic's", choices=("parameter", "topic")
-    )
-    step_size: float = _parameter(0.001, "fixed integration step in s", limits=(1e-6, 1.0))
-    publish_rate: float = _parameter(100.0, "samples a second of simulated time, in Hz", limits=(0.1, 1e4))
-    real_time_factor: float = _parameter(
-        1.0,
-        "simulated over real time, 0.1 to 100; 0: as fast as it goes",
-        limits=(0.0, 100.0),
-        dynamic=True,
-    )
-    steering_type: str = _parameter(
-        "std_msgs/msg/Float64", "message type of the steering topic", choices=STEERING_TYPES
-    )
-    steering_joint: str = _parameter("steering", "joint that steers, where the type is JointState")
-    steering_ratio: float = _parameter(
-        1.0, "steering command over road-wheel angle; 1: road-wheel commands", limits=(1e-3, 1e3)
-    )
-    max_steering_angle: float = _parameter(
-        0.8, "road-wheel angle in rad past which a command is clamped", limits=(0.0, 1.5), dynamic=True
-    )
-    max_steering_age: float = _parameter(
-        0.5,
-        "farthest in s that a command's stamp may be from now, past or future; 0: any",
-        limits=(0.0, 1e6),
-        dynamic=True,
-    )
-    steering_timeout: float = _parameter(
-        0.5,
-        "silence in s of simulated time after which on_steering_timeout counts",
-        limits=(0.0, 1e6),
-        dynamic=True,
-    )
-    on_steering_timeout: str = _parameter(
-        "hold", "after a silence: hold the last command, or zero", choices=("hold", "zero"), dynamic=True
-    )
-    steering_time_constant: float = _parameter(
-        0.0, "first-order lag of the road wheels in s; 0: none", limits=(0.0, 10.0)
-    )
-    steering_rate_limit: float = _parameter(
-        0.0, "fastest turn of the road wheels in rad/s; 0: any", limits=(0.0, 100.0)
-    )
-    manoeuvre: str = _parameter(
-        "none", "steering of the node's own, in place of the topic", choices=("none", *MANOEUVRES)
-    )
-    amplitude: float = _parameter(UNSET, "of the manoeuvre, rad; nan: its own")
-    frequency: float = _parameter(UNSET, "of sine, lane change and chirp, Hz; nan: its own")
-    start: float = _parameter(UNSET, "of the manoeuvre, s; nan: its own")
-    cycles: float = _parameter(UNSET, "of sine and lane change; 0: endless; nan: its own")
-    rise_time: float = _parameter(UNSET, "of the ramp, s; nan: its own")
-    width: float = _parameter(UNSET, "of the pulse, s; nan: its own")
-    final_frequency: float = _parameter(UNSET, "of the chirp, Hz; nan: its own")
-    sweep_time: float = _parameter(UNSET, "of the chirp, s; nan: its own")
-    max_lateral_acceleration: float = _parameter(
-        100.0,
-        "in m/s^2 of any unit, past which the model means nothing and the run is stopped",
-        limits=(1.0, 1e6),
-        dynamic=True,
-    )
-    max_articulation: float = _parameter(
-        3.14, "in rad of any joint, past which the run is stopped, too", limits=(0.1, 1e3), dynamic=True
-    )
-    duration: float = _parameter(
-        0.0, "simulated time in s after which the node ends; 0: none", limits=(0.0, 1e9)
-    )
-    publish_scalars: bool = _parameter(
-        default=True, description="also publish yaw, yaw_rate and lateral_acceleration as Float64"
-    )
-    publish_clock: bool = _parameter(default=False, description="publish simulated time on /clock")
-    publish_markers: bool = _parameter(default=False, description="publish the units as markers")
-    publish_tf: bool = _parameter(
-        default=True, description="publish the units on /tf, where tf2_msgs is installed"
-    )
-    frame_prefix: str = _parameter("", "put before the names of all frames, such as left/")
-    yaw_stddev: float = _parameter(0.0, "of the noise on imu's yaw, rad", limits=(0.0, 1.0))
-    yaw_rate_stddev: float = _parameter(0.0, "of the noise on imu's yaw rate, rad/s", limits=(0.0, 1.0))
-    lateral_acceleration_stddev: float = _parameter(
-        0.0, "of the noise on imu's lateral acceleration, m/s^2", limits=(0.0, 10.0)
-    )
-    noise_seed: int = _parameter(0, "of the noise: the same seed gives the same noise", limits=(0, 2**31 - 1))
-    record: bool = _parameter(default=True, description="record the run from its start")
-    record_directory: str = _parameter(
-        "",
-        "directory of the run, which must not exist; empty: runs/<stamp>_<vehicle>; set while running, it is "
-        "below the working directory and of the next ~/record",
-        dynamic=True,
-    )
-
-    def problem(self) -> str:
-        """What is wrong with these values taken together; empty if nothing is."""
-        if 0.0 < self.speed < LOWEST_SPEED:
-            return f"speed: {self.speed}: expected 0, or {LOWEST_SPEED} to 70 m/s"
-        if 0.0 < self.real_time_factor < SLOWEST:
-            return f"real_time_factor: {self.real_time_factor}: expected 0, or {SLOWEST} to 100"
-        if self.publish_rate * max(self.real_time_factor, 1.0) > FASTEST_RATE:
-            return (
-                f"real_time_factor: {self.real_time_factor}: with publish_rate {self.publish_rate} "
-                f"expected at most {FASTEST_RATE:g} samples a second"
-            )
-        if self.speed_source == "topic" and self.speed_given:
-            return f"speed: {self.speed}: speed_source is topic; expected 0, or speed_source parameter"
-        if self.manoeuvre == "none" and self.manoeuvre_settings:
-            return f"{next(iter(self.manoeuvre_settings))}: there is no manoeuvre to use it"
-        return ""
-
-    @property
-    def speed_given(self) -> bool:
-        """Whether a speed other than the vehicle's own was asked for."""
-        return self.speed > 0.0
-
-    @property
-    def manoeuvre_settings(self) -> dict[str, float]:
-        """Settings of the manoeuvre that were given."""
-        given = {name: getattr(self, name) for name in SETTINGS}
-        return {name: value for name, value in given.items() if not math.isnan(value)}
 
 
 def declare_parameters(node: Node) -> SimParameters:

@@ -24,10 +24,11 @@ from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.messages import INPUT_TYPES
 from yawdamp_ros.nodes.neighbours import Neighbours
 from yawdamp_ros.nodes.outputs import Outputs
-from yawdamp_ros.nodes.parameters import SimParameters, changed, declare_parameters
+from yawdamp_ros.nodes.parameters import changed, declare_parameters
 from yawdamp_ros.nodes.recorder import Recorder
 from yawdamp_ros.nodes.recording import open_run, run_messages
 from yawdamp_ros.nodes.subscriptions import STEADY, SteeringSubscription, subscribe_speed
+from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.stepping import (
     Pacer,
     Sample,

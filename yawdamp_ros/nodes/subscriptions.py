@@ -11,8 +11,8 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from std_msgs.msg import Float64
 
-from yawdamp_ros.logs.steering_messages import STEERING_TYPES, message_stamp
 from yawdamp_ros.nodes.errors import NodeError
+from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_stamp
 from yawdamp_ros.stepping import SpeedInput, SteeringInput, Verdict
 from yawdamp_ros.stepping.time_grid import SECOND
 
