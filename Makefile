@@ -6,7 +6,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: help setup sim test test-fast soak bench bench-memory lint reproduction parameters lock clean
+.PHONY: help setup sim test test-fast soak bench bench-memory lint docs reproduction parameters lock clean
 
 help:  ## say what the targets do
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -44,8 +44,12 @@ lint: setup  ## ruff, mypy and the layering
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
-	@MYPYPATH=docs $(BIN)/mypy --explicit-package-bases docs/reproduce.py docs/reproduction docs/parameter_table.py
+	@MYPYPATH=docs $(BIN)/mypy --explicit-package-bases docs/reproduce.py docs/reproduction docs/parameter_table.py docs/reference_pages.py
 	@$(BIN)/lint-imports --no-cache
+
+docs: setup  ## build the manual into docs/_build/html; a warning is an error
+	@$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	@echo "docs/_build/html/index.html"
 
 reproduction: setup  ## write docs/report_reproduction.md and the pictures of docs/ from the code
 	@$(BIN)/python docs/reproduce.py
@@ -59,4 +63,4 @@ lock: setup  ## renew requirements.lock
 	  --no-emit-index-url --no-annotate setup.py --output-file requirements.lock
 
 clean:  ## remove what the targets made, but for recorded runs
-	@rm -rf $(VENV) build install log *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	@rm -rf $(VENV) build install log *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis docs/_build

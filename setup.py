@@ -67,6 +67,8 @@ setup(
         ],
         # Repeats in several processes, and keeps every value; psutil and rosbags come with the tests.
         "bench": ["pyperf"],
+        # The manual: what rosdoc2 builds ROS packages' pages with, and a gallery of scripts.
+        "docs": ["sphinx>=8", "myst-parser", "numpydoc", "pydata-sphinx-theme", "sphinx-gallery"],
         "lint": ["ruff", "mypy", "import-linter"],
         "colcon": ["colcon-core", "colcon-ros"],
     },

@@ -22,7 +22,12 @@ def readme(text: str) -> str:
     """README with its table of parameters renewed."""
     before, _, rest = text.partition(HEAD)
     after = rest.partition("\n\n")[2]
-    return f"{before}{HEAD}{_rows()}\n\n{after}"
+    return f"{before}{table()}\n\n{after}"
+
+
+def table() -> str:
+    """Table of the parameters in Markdown."""
+    return f"{HEAD}{_rows()}"
 
 
 def parameter_file() -> str:

@@ -1,0 +1,127 @@
+"""Pages of the manual's reference that are made from the code: commands, node, vehicle files, library."""
+
+import inspect
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import parameter_table
+from yawdamp_ros.cli.dispatch import COMMANDS
+from yawdamp_ros.share import share_directory
+
+ROOMS = ("vehicle", "dynamics", "stepping", "manoeuvres", "analysis", "logs")
+"""Rooms of the library that the reference describes, from the vehicle file upwards."""
+
+
+def write(directory: Path) -> None:
+    """Write every page; a page that is already the same keeps its time, so that a build is incremental."""
+    pages = {
+        "commands.md": _commands(),
+        "parameters.md": _parameters(),
+        "vehicle_file.md": _vehicle_file(),
+        "library.md": _library(),
+    }
+    for name, text in pages.items():
+        path = directory / name
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def _commands() -> str:
+    sections = "".join(
+        f"\n## {name}\n\n{summary[0].upper()}{summary[1:]}.\n\n```text\n{_help(name)}```\n"
+        for name, summary in COMMANDS.items()
+    )
+    return (
+        "# Commands\n\n"
+        "Every command has `--help`. Wrong use is one line on stderr and exit status 2; a negative answer "
+        "(an unstable vehicle, a level that is missed, a run that does not repeat) is exit status 1.\n"
+        f"{sections}"
+    )
+
+
+def _help(name: str) -> str:
+    done = subprocess.run(  # noqa: S603 - the project's own commands
+        [sys.executable, "-m", "yawdamp_ros", name, "--help"],
+        env={**os.environ, "COLUMNS": "80", "NO_COLOR": "1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout
+
+
+def _parameters() -> str:
+    return (
+        "# Parameters of the node\n\n"
+        "Set a parameter with `--ros-args -p NAME:=VALUE`, with `--params-file`, or, where the table says "
+        "*while running*, with `ros2 param set`. Write a number as it is declared: `100.0`, not `100`.\n\n"
+        f"{parameter_table.table()}\n"
+    )
+
+
+def _vehicle_file() -> str:
+    schema = json.loads((share_directory() / "config" / "vehicle.schema.json").read_text(encoding="utf-8"))
+    tables = [("the file", schema), *schema["$defs"].items()]
+    sections = "".join(
+        f"\n## {name[0].upper()}{name[1:].replace('_', ' ')}\n\n{_table(part, schema)}\n"
+        for name, part in tables
+        if "properties" in part
+    )
+    return (
+        "# Vehicle file\n\n"
+        "A vehicle file is YAML in SI units and radians. Positions are measured from the centre of gravity "
+        "of the unit, forward positive. An editor that reads JSON Schema checks a file against "
+        "`config/vehicle.schema.json` while you type.\n"
+        f"{sections}"
+    )
+
+
+def _table(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
+    required = set(part.get("required", ()))
+    rows = [
+        f"| `{key}` | {'yes' if key in required else 'no'} | {_described(value, schema)} |"
+        for key, value in part["properties"].items()
+    ]
+    return "\n".join(["| key | required | |", "|---|---|---|", *rows])
+
+
+def _described(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
+    while "description" not in part and "$ref" in part:
+        found: Any = schema
+        for name in part["$ref"].removeprefix("#/").split("/"):
+            found = found[name]
+        part = found
+    return str(part.get("description", "")).replace("|", "\\|")
+
+
+def _library() -> str:
+    sections = "".join(_room(name) for name in ROOMS)
+    return (
+        "# Library\n\n"
+        "Import what you need from `yawdamp_ros` or from one of its rooms. None of them imports ROS.\n"
+        f"{sections}"
+    )
+
+
+def _room(name: str) -> str:
+    module = import_module(f"yawdamp_ros.{name}")
+    summary = (module.__doc__ or "").splitlines()[0]
+    public = "\n".join(f"   {item}" for item in _public(name))
+    return (
+        f"\n## yawdamp_ros.{name}\n\n{summary}\n\n"
+        f"```{{eval-rst}}\n.. currentmodule:: yawdamp_ros.{name}\n\n"
+        f".. autosummary::\n   :toctree: library\n\n{public}\n```\n"
+    )
+
+
+def _public(room: str) -> Iterator[str]:
+    module = import_module(f"yawdamp_ros.{room}")
+    for name in sorted(module.__all__, key=str.lower):
+        if inspect.isclass(found := getattr(module, name)) or inspect.isfunction(found):
+            yield name
