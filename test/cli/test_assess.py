@@ -64,6 +64,18 @@ def test_text_gives_value_unit_verdict_and_level(capsys: pytest.CaptureFixture[s
     assert "Definitions; levels are from secondary sources" in lines
 
 
+def test_text_says_where_a_measure_is_ambiguous(capsys: pytest.CaptureFixture[str]) -> None:
+    stiffness = [f"units.0.axles.{axle}.cornering_stiffness=3.236e5" for axle in (1, 2)]
+    stiffness += [f"units.3.axles.{axle}.cornering_stiffness=2.671e4" for axle in range(3)]
+    options = [part for change in stiffness for part in ("--set", change)]
+    said = "ambiguous: yaw_damping_coefficient could be read as 0.1225 to 0.444, on either side of its level"
+    assert run(["assess", "--vehicle", "a_double", *options]) == 1
+    assert said in capsys.readouterr().out.splitlines()
+    row = answer(capsys, "--vehicle", "a_double", *options, status=1)["yaw_damping_coefficient"]
+    assert row["pass"] is False
+    assert said in row["definition"]
+
+
 def test_text_says_why_there_is_no_value(capsys: pytest.CaptureFixture[str]) -> None:
     unstable = ["--set", "units.0.axles.1.cornering_stiffness=3e4", "--speed", "40"]
     assert run(["assess", "--vehicle", "single_vehicle", *unstable]) == 1

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     )
     from yawdamp_ros.analysis.transfer import TransferFunction, transfer_function
     from yawdamp_ros.analysis.variation import Variation, parse_variation
-    from yawdamp_ros.analysis.yaw_damping import pulse_decay, yaw_damping_coefficient
+    from yawdamp_ros.analysis.yaw_damping import damping_of_peaks, pulse_decay, yaw_damping_coefficient
 
 __all__ = [
     "MEASURES",
@@ -72,6 +72,7 @@ __all__ = [
     "assess",
     "axle_path",
     "critical_speed",
+    "damping_of_peaks",
     "eigenvalue_locus",
     "failed",
     "find_boundaries",
@@ -139,6 +140,6 @@ __getattr__ = load_on_use(
         ),
         "yawdamp_ros.analysis.transfer": ("TransferFunction", "transfer_function"),
         "yawdamp_ros.analysis.variation": ("Variation", "parse_variation"),
-        "yawdamp_ros.analysis.yaw_damping": ("pulse_decay", "yaw_damping_coefficient"),
+        "yawdamp_ros.analysis.yaw_damping": ("damping_of_peaks", "pulse_decay", "yaw_damping_coefficient"),
     },
 )

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from yawdamp_ros.analysis.answers import stack_of
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.measures import MEASURES, Measure
 from yawdamp_ros.dynamics import linear_model
@@ -24,6 +25,8 @@ class Finding:
         threshold that is not given and no other level is failed.
     reason : str
         Why there is no value; empty where that needs no saying.
+    ambiguity : str
+        Why the verdict is not sure, or why there is none; empty where it is.
     """
 
     measure: Measure
@@ -31,6 +34,7 @@ class Finding:
     value: float | None
     passed: bool | None
     reason: str = ""
+    ambiguity: str = ""
 
     @property
     def level(self) -> str | None:
@@ -73,17 +77,26 @@ def assess(
 
 
 def failed(findings: Iterable[Finding]) -> bool:
-    """Whether any level is failed."""
-    return any(finding.passed is False for finding in findings)
+    """Whether any level is failed, or met in one reading of an ambiguous measure only."""
+    return any(finding.passed is False or bool(finding.ambiguity) for finding in findings)
 
 
 def _find(measure: Measure, vehicle: Vehicle, model: str, speed: float | None, srt: float | None) -> Finding:
     at = linear_model(vehicle, speed or measure.speed or vehicle.speed, model)
+    answers = measure.answers(stack_of(at))
     try:
-        value = measure.value(at)
+        value = answers.only()
     except AnalysisError as error:
         return Finding(measure, at.speed, None, None, str(error))
-    return Finding(measure, at.speed, value, _judge(measure, value, srt))
+    passed = _judge(measure, value, srt)
+    if value is None or answers.spans is None:
+        return Finding(measure, at.speed, value, passed)
+    low, high = answers.spans[0].tolist()
+    if {_judge(measure, low, srt), _judge(measure, high, srt)} == {passed}:
+        return Finding(measure, at.speed, value, passed)
+    ambiguity = f"{measure.name} could be read as {low:.4g} to {high:.4g}, on either side of its level"
+    # A pass has to hold however the measure is read.
+    return Finding(measure, at.speed, value, False if passed is False else None, "", ambiguity)
 
 
 def _judge(measure: Measure, value: float | None, srt: float | None) -> bool | None:

@@ -14,10 +14,11 @@ from yawdamp_ros.analysis.amplification import (
     peak_amplification,
     rearward_amplification,
 )
+from yawdamp_ros.analysis.answers import Answers, one_by_one, stack_of
 from yawdamp_ros.analysis.eigenmodes import least_damping_ratio
 from yawdamp_ros.analysis.lane_change import SAE_J2179, SAE_J2179_SPEED, run_lane_change
 from yawdamp_ros.analysis.steady_state import steady_steering
-from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH, pulse_decay, yaw_damping_coefficient
+from yawdamp_ros.analysis.yaw_damping import EXCITED, PULSE_WIDTH, yaw_dampings
 from yawdamp_ros.dynamics import LinearModel
 
 PBS_DAMPING_SPEED = 80.0 / 3.6
@@ -65,9 +66,8 @@ class Measure:
         Empty for a ratio.
     definition : str
         What is computed, and whose measure it is.
-    value : callable
-        Its value for a model: None where there is none. It raises `AnalysisError` where the question has no
-        answer, as that for a lane change of an unstable vehicle.
+    answers : callable
+        Its values for the model of a stack of vehicles.
     speed : float or None
         That its standard asks for, in m/s; None: the vehicle's own.
     levels : tuple of Level
@@ -76,9 +76,19 @@ class Measure:
     name: str
     unit: str
     definition: str
-    value: Callable[[LinearModel], float | None]
+    answers: Callable[[LinearModel], Answers]
     speed: float | None = None
     levels: tuple[Level, ...] = ()
+
+    def value(self, model: LinearModel) -> float | None:
+        """Value for one vehicle, None where there is none.
+
+        Raises
+        ------
+        AnalysisError
+            If the question has no answer, as that for a lane change of an unstable vehicle.
+        """
+        return self.answers(stack_of(model)).only()
 
 
 def _lane_change_offtracking(model: LinearModel) -> float:
@@ -100,15 +110,16 @@ _ALL = (
         "least_damping_ratio",
         "",
         "smallest -Re/abs of the eigenvalues of the state matrix",
-        least_damping_ratio,
+        one_by_one(least_damping_ratio),
         levels=(Level("> 0 (stable)", 0.0, "above"),),
     ),
     Measure(
         "yaw_damping_coefficient",
         "",
-        "from the mean ratio of successive same-sign peaks of the last unit's yaw rate after a steering "
-        f"pulse of {PULSE_WIDTH:g} s (PBS), once the lightest mode is alone",
-        lambda model: yaw_damping_coefficient(pulse_decay(model)),
+        "lowest damping ratio of what swings in the last unit's yaw rate after a steering pulse of "
+        f"{PULSE_WIDTH:g} s, which the mean ratio of successive same-sign peaks (PBS) tells where one mode "
+        f"swings alone; modes from {100.0 * EXCITED:g} % of the largest swing on count",
+        yaw_dampings,
         PBS_DAMPING_SPEED,
         (Level("PBS: >= 0.15", 0.15, "least"),),
     ),
@@ -117,19 +128,19 @@ _ALL = (
         "rad/(m/s2)",
         "steer angle per lateral acceleration in a steady turn, beyond the Ackermann angle; "
         "positive is understeer",
-        lambda model: steady_steering(model).understeer_gradient,
+        one_by_one(lambda model: steady_steering(model).understeer_gradient),
     ),
     Measure(
         "critical_speed",
         "m/s",
         f"lowest speed from {_LOWEST:g} to {_HIGHEST:g} m/s at which an eigenvalue crosses into Re > 0",
-        _critical_speed,
+        one_by_one(_critical_speed),
     ),
     Measure(
         "rearward_amplification",
         "",
         f"largest lateral acceleration of the last unit over that of the first, {_J2179}",
-        lambda model: rearward_amplification(run_lane_change(model).lateral_acceleration),
+        one_by_one(lambda model: rearward_amplification(run_lane_change(model).lateral_acceleration)),
         SAE_J2179_SPEED,
         (Level("PBS: <= 5.7 SRT/g", 5.7, per_srt=True), Level("RTAC: <= 2.2", 2.2)),
     ),
@@ -137,7 +148,7 @@ _ALL = (
         "rearward_amplification_yaw_rate",
         "",
         f"largest yaw rate of the last unit over that of the first, {_J2179}",
-        lambda model: rearward_amplification(run_lane_change(model).yaw_rate),
+        one_by_one(lambda model: rearward_amplification(run_lane_change(model).yaw_rate)),
         SAE_J2179_SPEED,
     ),
     Measure(
@@ -145,19 +156,19 @@ _ALL = (
         "",
         "largest ratio of lateral accelerations, last unit over first, in steady sine steering up to "
         f"{FREQUENCIES[-1]:g} Hz (ISO 14791)",
-        lambda model: peak_amplification(model).gain,
+        one_by_one(lambda model: peak_amplification(model).gain),
     ),
     Measure(
         "rearward_amplification_peak_frequency",
         "Hz",
         "where that largest ratio is reached",
-        lambda model: peak_amplification(model).frequency,
+        one_by_one(lambda model: peak_amplification(model).frequency),
     ),
     Measure(
         "high_speed_transient_offtracking",
         "m",
         f"largest lateral distance between the paths of the last axle and of the steer axle {_J2179}",
-        _lane_change_offtracking,
+        one_by_one(_lane_change_offtracking),
         SAE_J2179_SPEED,
         (
             Level("PBS: <= 0.6, 0.8, 1.0, 1.2 for levels 1 to 4", 1.2),
@@ -169,7 +180,7 @@ _ALL = (
         "m",
         "radius of the last axle's path less that of the steer axle's on a steady curve of "
         f"{offtracking.STEADY_RADIUS:g} m; positive: outside",
-        offtracking.steady_offtracking,
+        one_by_one(offtracking.steady_offtracking),
     ),
 )
 

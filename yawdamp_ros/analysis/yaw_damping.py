@@ -1,44 +1,193 @@
-"""Yaw damping as it is measured: from the peaks of a free decay."""
+"""Yaw damping: how fast dies out what swings in the free decay after a pulse of steering."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 from scipy.linalg import expm
 
+from yawdamp_ros.analysis.answers import Answers, stack_of
+from yawdamp_ros.analysis.eigenmodes import ComplexArray
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.motion import free_motion
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
+BoolArray = npt.NDArray[np.bool_]
+
 PULSE_WIDTH = 0.5
 """Of the steering pulse in s, as the manoeuvre `pulse` has it."""
 
-SETTLING = 0.5
-"""Share of the extrema that is left out, from the first on: in them other modes have not died out yet."""
+EXCITED = 0.02
+"""Share of the largest swing from which on a mode is excited. No standard that was readable names one."""
+
+FAINT = 0.001
+"""Share of the largest swing from which on a mode that is lighter than those excited is told."""
 
 _SMALLEST = 1e-9
 """Extrema below this share of the largest are not used: the rounding of 1 is 1e-16."""
+
+_RESOLVED = 1e-6
+"""Share of the whole decay from which on a swing is one, and not the rounding of what does not swing."""
+
+_LARGEST_EXPONENT = 300.0
+"""Of a growth over the pulse: what outgrows all numbers grows as much as it takes."""
 
 _STEPS_PER_RADIAN = 100.0
 _DECAY_TIME = -math.log(_SMALLEST)
 _MOST_STEPS = 200_000
 
 
-def yaw_damping_coefficient(values: FloatArray, settling: float = SETTLING) -> float:
-    """Yaw damping coefficient of the Australian PBS scheme from a free decay.
+class ModesOfDecay(NamedTuple):
+    """Free decay as a sum of modes, ``sum_j residues_j exp(eigenvalues_j t)``.
+
+    Attributes
+    ----------
+    eigenvalues : ndarray of complex, shape (k, m)
+        In 1/s, of each of k vehicles.
+    residues : ndarray of complex, shape (k, n, m)
+        Of n signals at the end of a pulse of 1 rad: the last unit's yaw rate in rad/s, then the articulation
+        angles in rad.
+    """
+
+    eigenvalues: ComplexArray
+    residues: ComplexArray
+
+    @property
+    def damping_ratios(self) -> FloatArray:
+        """``-Re / abs`` of the eigenvalues, shape (k, m)."""
+        size = np.abs(self.eigenvalues)
+        return -self.eigenvalues.real / np.where(size > 0.0, size, 1.0)
+
+    @property
+    def swinging(self) -> BoolArray:
+        """Whether a mode swings, shape (k, m): the first of a pair whose next peak of the same sign is seen.
+
+        Of two peaks of the same sign a critically damped pair, or one close to it, has the second below
+        rounding.
+        """
+        positive = self.eigenvalues.imag > 0.0
+        frequency = np.where(positive, self.eigenvalues.imag, 1.0)
+        return np.asarray(positive & (math.tau * self.eigenvalues.real > -_DECAY_TIME * frequency))
+
+    @property
+    def swings(self) -> FloatArray:
+        """Size of the swings of each mode in each signal, shape (k, n, m); 0 where a mode does not swing.
+
+        It is the amplitude half a period after the pulse, about the first extremum on the other side: a mode
+        of heavy damping begins large and never comes back.
+        """
+        frequency = np.where(self.swinging, self.eigenvalues.imag, 1.0)
+        half_period = np.exp(np.minimum(math.pi * self.eigenvalues.real / frequency, 0.5 * _DECAY_TIME))
+        return np.asarray(np.abs(self.residues) * (half_period * self.swinging)[:, np.newaxis])
+
+
+def modes_of_decay(model: LinearModel) -> ModesOfDecay:
+    """Modes of the free decay after a pulse of steering, which need no samples and no peaks to be told.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of a stack of k vehicles.
+
+    Returns
+    -------
+    ModesOfDecay
+    """
+    eigenvalues, shapes = (np.asarray(part, np.complex128) for part in np.linalg.eig(model.state_matrix))
+    # The state at the end of the pulse is the integral of exp(A t) B over it.
+    over_pulse = np.minimum(eigenvalues.real * PULSE_WIDTH, _LARGEST_EXPONENT)
+    over_pulse = over_pulse + 1j * eigenvalues.imag * PULSE_WIDTH
+    still = eigenvalues == 0.0
+    held = np.where(still, PULSE_WIDTH, np.expm1(over_pulse) / np.where(still, 1.0, eigenvalues))
+    amplitudes = held * _solved(shapes, model.input_matrix)
+    units = len(model.vehicle.units)
+    signals = shapes[:, units:]  # the last yaw rate, and all articulation angles
+    return ModesOfDecay(eigenvalues, signals * amplitudes[:, np.newaxis])
+
+
+def yaw_dampings(model: LinearModel) -> Answers:
+    """Yaw damping coefficient of the Australian PBS scheme for a stack of vehicles.
+
+    The scheme takes it from the mean ratio of successive peaks of the same sign, see `damping_of_peaks`. That
+    ratio tells the damping where one mode swings alone. Here the decay is split into its modes; those that
+    do not swing are left out: the coefficient is the lowest damping ratio of the modes that are excited in
+    the last unit's yaw rate, their swings at least `EXCITED` of the largest. Where one mode swings alone both
+    are the same.
+
+    Where several are excited, peaks mix them, and the measure is ambiguous: the span reaches to the
+    highest damping ratio of an excited mode. It also reaches down to a mode that is faint in the yaw rate
+    (`FAINT`), or excited in an articulation angle alone.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of a stack of vehicles.
+
+    Returns
+    -------
+    Answers
+        Negative where a swing grows, -1 where the motion grows without swinging.
+    """
+    decay = modes_of_decay(model)
+    ratios, swings = decay.damping_ratios, decay.swings
+    sizes = np.abs(decay.residues)
+    resolved = swings > _RESOLVED * sizes.sum(axis=2, keepdims=True)
+    shares = np.where(resolved, swings, 0.0)
+    largest = shares.max(axis=2, keepdims=True)
+    shares /= np.where(largest > 0.0, largest, 1.0)
+    excited = shares[:, 0] >= EXCITED
+    told = excited | (shares[:, 0] >= FAINT) | (shares >= EXCITED).any(axis=1)
+    counted = np.where(excited.any(axis=1, keepdims=True), excited, told)
+    values = _least(ratios, counted)
+    spans = np.column_stack([_least(ratios, told), -_least(-ratios, counted)])
+    grows = (decay.eigenvalues.imag == 0.0) & (decay.eigenvalues.real > 0.0)
+    grows &= sizes[:, 0] > _RESOLVED * sizes[:, 0].max(axis=1, keepdims=True)
+    values[grows.any(axis=1)] = spans[grows.any(axis=1)] = -1.0
+    message = "yaw damping coefficient: the motion does not swing: expected two peaks of the same sign"
+    return Answers(values, dict.fromkeys(np.flatnonzero(np.isnan(values)).tolist(), message), spans)
+
+
+def yaw_damping_coefficient(model: LinearModel) -> float:
+    """Yaw damping coefficient of one vehicle, see `yaw_dampings`.
+
+    Parameters
+    ----------
+    model : LinearModel
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    AnalysisError
+        If the motion does not swing.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> round(yaw_damping_coefficient(linear_model(load_vehicle("a_double"))), 3)
+    0.372
+    """
+    value = yaw_dampings(stack_of(model)).only()
+    return math.nan if value is None else value
+
+
+def damping_of_peaks(values: FloatArray) -> float:
+    """Damping by the definition of the Australian PBS scheme, from the peaks of a decay that was measured.
 
     ``D = ln r / sqrt(4 pi^2 + ln^2 r)`` where r is the mean ratio of successive peaks **of the same sign**,
     those above zero and those below it taken alike. A ratio of successive peaks of either sign spans half a
-    cycle and would have to go with pi^2. The formula was read in secondary sources, not in the standard.
+    cycle and would have to go with pi^2. The formula was read in secondary sources, not in the standard. It
+    tells the damping of a mode that swings alone; of a decay that holds more, `yaw_dampings` does.
 
     Parameters
     ----------
     values : ndarray, shape (m,)
         Yaw rate of the last unit, or an articulation angle, evenly sampled after the steering has returned
         to zero. Peaks are interpolated by a parabola through three samples.
-    settling : float
-        Share of the extrema left out, from the first on: every mode starts with the decay, and a
-        logarithmic decrement tells the damping only once the lightest is alone.
 
     Returns
     -------
@@ -52,9 +201,7 @@ def yaw_damping_coefficient(values: FloatArray, settling: float = SETTLING) -> f
     """
     extrema = _extrema(values)
     extrema = _longest_swing(extrema[np.abs(extrema) > _SMALLEST * np.abs(values).max()])
-    # Three extrema give one ratio: so many are left in any case.
-    used = extrema[max(min(int(settling * len(extrema)), len(extrema) - 3), 0) :]
-    ratios = used[:-2] / used[2:]
+    ratios = extrema[:-2] / extrema[2:]
     if not len(ratios):
         message = "yaw damping coefficient: the motion does not swing: expected two peaks of the same sign"
         raise AnalysisError(message)
@@ -98,6 +245,23 @@ def _extrema(values: FloatArray) -> FloatArray:
     slope, curvature = 0.5 * (after - before), after - 2.0 * at + before
     found: FloatArray = at - 0.5 * slope**2 / curvature
     return found
+
+
+def _least(ratios: FloatArray, chosen: BoolArray) -> FloatArray:
+    """Lowest of those chosen, of each of k vehicles; NaN where none is."""
+    found = np.where(chosen, ratios, np.inf).min(axis=1)
+    return np.where(np.isinf(found), np.nan, found)
+
+
+def _solved(shapes: ComplexArray, vectors: FloatArray) -> ComplexArray:
+    """Amplitudes of the modes that add up to a vector, of each of k vehicles."""
+    singular = np.linalg.det(shapes) == 0.0
+    # Two modes of one shape: whichever of the two has it, their sum is the same.
+    regular = np.where(singular[:, np.newaxis, np.newaxis], np.eye(shapes.shape[-1]), shapes)
+    found = np.linalg.solve(regular, vectors[..., np.newaxis].astype(np.complex128))[..., 0]
+    for index in np.flatnonzero(singular):
+        found[index] = np.linalg.pinv(shapes[index]) @ vectors[index]
+    return np.asarray(found, dtype=np.complex128)
 
 
 def _longest_swing(extrema: FloatArray) -> FloatArray:

@@ -44,7 +44,7 @@ def _parser() -> argparse.ArgumentParser:
         "Rearward amplification, yaw damping, offtracking, understeer and critical speed of a combination,\n"
         "with the levels of the Australian PBS scheme and of RTAC. Each measure is taken at the speed that\n"
         "its standard names, else at the vehicle's own; --speed is for all.\n"
-        "Exit status: 0 if no level is failed, 1 if one is, 2 for wrong use.",
+        "Exit status: 0 if no level is failed, 1 if one is or may be, 2 for wrong use.",
         "python -m yawdamp_ros assess --vehicle a_double --srt 0.4",
     )
     add_vehicle_options(parser)
@@ -77,7 +77,12 @@ def _record(finding: Finding) -> dict[str, object]:
 
 def _definition(finding: Finding) -> str:
     reason = f"; no value: {finding.reason}" if finding.reason else ""
-    return f"{finding.measure.definition}; at {finding.speed:.6g} m/s{reason}"
+    ambiguity = f"; ambiguous: {finding.ambiguity}" if finding.ambiguity else ""
+    return f"{finding.measure.definition}; at {finding.speed:.6g} m/s{reason}{ambiguity}"
+
+
+def _verdict(finding: Finding) -> str:
+    return "ambiguous" if finding.ambiguity and finding.passed is None else VERDICTS[finding.passed]
 
 
 def _print_text(title: str, findings: Sequence[Finding]) -> None:
@@ -90,7 +95,7 @@ def _print_text(title: str, findings: Sequence[Finding]) -> None:
                 "none" if finding.value is None else f"{finding.value:.4g}",
                 finding.measure.unit,
                 f"{finding.speed:.2f}",
-                VERDICTS[finding.passed],
+                _verdict(finding),
                 finding.level or "",
             )
             for finding in findings
@@ -102,6 +107,9 @@ def _print_text(title: str, findings: Sequence[Finding]) -> None:
         print(f"understeer gradient: {math.degrees(gradient) * STANDARD_GRAVITY:.4g} deg/g")
     for reason in dict.fromkeys(finding.reason for finding in findings if finding.reason):
         print(f"no value: {reason}")
+    for finding in findings:
+        if finding.ambiguity:
+            print(f"ambiguous: {finding.ambiguity}")
     if any(
         level.per_srt for finding in findings for level in finding.measure.levels if finding.passed is None
     ):

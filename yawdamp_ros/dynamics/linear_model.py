@@ -1,6 +1,5 @@
-"""One vehicle at one speed as a linear state space with named states and outputs."""
+"""A vehicle at a speed, or a stack of vehicles, as a linear state space with named states and outputs."""
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -24,6 +23,8 @@ LOWEST_SPEED = 0.01
 @dataclass(frozen=True)
 class LinearModel:
     """``x' = A x + B delta``, ``y = C x + D delta`` for n units.
+
+    Of a stack of k vehicles every array has a first axis of k, and the speed may be one for each.
 
     Attributes
     ----------
@@ -65,8 +66,9 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     Parameters
     ----------
     vehicle : Vehicle
+        Or a stack of them.
     speed : float, optional
-        Longitudinal speed in m/s; the vehicle's own unless given.
+        Longitudinal speed in m/s; the vehicle's own unless given. Of a stack, one for all or for each.
     model : str
         One of `MODELS`.
 
@@ -81,7 +83,7 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
         numbers are too far apart.
     """
     speed = vehicle.speed if speed is None else speed
-    if not (math.isfinite(speed) and speed >= LOWEST_SPEED):
+    if not np.all(np.isfinite(speed) & (np.asarray(speed) >= LOWEST_SPEED)):
         message = f"speed: {speed}: expected a speed of at least {LOWEST_SPEED} m/s"
         raise DynamicsError(message)
     if model not in MODELS:
@@ -89,8 +91,11 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
         raise DynamicsError(message)
     with np.errstate(all="ignore"):  # what overflows is no number, and is told below
         state_matrix, input_matrix = MODELS[model](vehicle, speed)
+        # Of a stack whose input matrices are all alike there may be one.
+        input_matrix = np.broadcast_to(input_matrix, state_matrix.shape[:-1])
         output_matrix, feedthrough = _outputs(vehicle, speed, state_matrix, input_matrix)
-    if not all(np.isfinite(part).all() for part in (state_matrix, input_matrix, output_matrix, feedthrough)):
+        parts = state_matrix, input_matrix, output_matrix, feedthrough
+    if not all(np.isfinite(part).all() for part in parts):
         message = f"model: {model}: the numbers of {vehicle.name} are too far apart to compute with"
         raise DynamicsError(message)
     return LinearModel(
@@ -113,16 +118,19 @@ def _outputs(
     rates = count + 1
     rows = cg_rows(vehicle)
     identity = np.eye(2 * count)
-    lateral_velocity = rows @ identity[:rates]
+    stack = state_matrix.shape[:-2]
+    output_matrix = np.zeros((*stack, 4 * count - 1, 2 * count))
+    output_matrix[..., :count, :rates] = rows
     for index in range(count):
         # v_k = y_k' - u psi_k, and psi_1 - psi_k is the sum of the joints ahead of unit k.
-        lateral_velocity[index, rates : rates + index] += speed
+        output_matrix[..., index, rates : rates + index] += np.asarray(speed)[..., np.newaxis]
+    output_matrix[..., count : 2 * count, :] = identity[1:rates]
     # a_y,k = y_k'' with y'' = v' + u r_1
-    lateral_acceleration = rows @ state_matrix[:rates]
-    lateral_acceleration[:, 1] += speed
-    output_matrix = np.vstack([lateral_velocity, identity[1:rates], lateral_acceleration, identity[rates:]])
-    feedthrough = np.zeros(len(output_matrix))
-    feedthrough[2 * count : 3 * count] = rows @ input_matrix[:rates]
+    output_matrix[..., 2 * count : 3 * count, :] = rows @ state_matrix[..., :rates, :]
+    output_matrix[..., 2 * count : 3 * count, 1] += np.asarray(speed)[..., np.newaxis]
+    output_matrix[..., 3 * count :, :] = identity[rates:]
+    feedthrough = np.zeros((*stack, 4 * count - 1))
+    feedthrough[..., 2 * count : 3 * count] = (rows @ input_matrix[..., :rates, np.newaxis])[..., 0]
     return output_matrix, feedthrough
 
 

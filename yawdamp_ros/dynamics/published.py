@@ -7,6 +7,7 @@ arm. `docs/report_reproduction.md` shows what follows from that; `yawdamp_ros.dy
 model to use for anything else.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,8 @@ import numpy as np
 from yawdamp_ros.dynamics.errors import DynamicsError
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.vehicle import Vehicle
+
+Number = float | FloatArray
 
 AXLES = (3, 2, 2)
 """Axles of truck, trailer 1 and trailer 2, which the printed matrices are written for."""
@@ -75,7 +78,7 @@ def published_matrices(vehicle: Vehicle, speed: float) -> PublishedMatrices:
     s = c1 + c2 + c3 + c4 + c5 + c6 + c7
     trailers = c4 + c5 + c6 + c7
 
-    mass = np.array(
+    mass = _array(
         [
             [b * m1, i1, 0, 0, 0, 0],
             [m1 + m2 + m3, -b * (m2 + m3), -f * (m2 + m3) - m3 * e, m3 * h, 0, 0],
@@ -83,10 +86,9 @@ def published_matrices(vehicle: Vehicle, speed: float) -> PublishedMatrices:
             [h * m3, m3 * b * h, m3 * h * (f + e), m3 * h**2 - i3, 0, 0],
             [0, 0, 0, 0, 1, 0],
             [0, 0, 0, 0, 0, 1],
-        ],
-        dtype=np.float64,
+        ]
     )
-    rates = np.array(
+    rates = _array(
         [
             [
                 -((a + b) * c1 + (b - c) * c2 + (b - c - d) * c3) / u,
@@ -122,10 +124,9 @@ def published_matrices(vehicle: Vehicle, speed: float) -> PublishedMatrices:
             ],
             [0, 1, -1, 0, 0, 0],
             [0, 0, 1, -1, 0, 0],
-        ],
-        dtype=np.float64,
+        ]
     )
-    steering = np.array([(a + b) * c1, c1, f * c1, 0, 0, 0], dtype=np.float64)
+    steering = _array([[(a + b) * c1, c1, f * c1, 0, 0, 0]])[..., 0, :]
     return PublishedMatrices(mass, rates, steering)
 
 
@@ -153,12 +154,12 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     """
     matrices = published_matrices(vehicle, speed)
     try:
-        solution = np.linalg.solve(matrices.mass, np.column_stack([matrices.rates, matrices.steering]))
+        solution = np.linalg.solve(matrices.mass, _beside(matrices.rates, matrices.steering))
     except np.linalg.LinAlgError as error:
         message = f"model: published: its mass matrix is singular for {vehicle.name} with these values"
         raise DynamicsError(message) from error
     solved: FloatArray = np.asarray(solution, dtype=np.float64)
-    return solved[:, :-1], solved[:, -1]
+    return solved[..., :-1], solved[..., -1]
 
 
 def _check_shape(vehicle: Vehicle) -> None:
@@ -170,14 +171,32 @@ def _check_shape(vehicle: Vehicle) -> None:
     elif steered != [True, *[False] * (len(steered) - 1)]:
         found = f"{vehicle.name} steers another axle than the foremost"
         expected = "expected the foremost axle alone to be steered"
-    elif vehicle.units[1].axles[0].position != vehicle.units[1].rear_hitch:
+    elif np.any(vehicle.units[1].axles[0].position != np.asarray(vehicle.units[1].rear_hitch)):
         trailer = vehicle.units[1]
-        found = f"{trailer.name} has its rear hitch at {trailer.rear_hitch:g} m"
-        expected = f"expected it at its first axle, {trailer.axles[0].position:g} m, where the report has it"
+        place = _first(trailer.axles[0].position)
+        found = f"{trailer.name} has its rear hitch at {_first(trailer.rear_hitch)} m"
+        expected = f"expected it at its first axle, {place} m, where the report has it"
     else:
         return
     message = f"model: published: {found}; {expected}"
     raise DynamicsError(message)
+
+
+def _array(rows: Sequence[Sequence[Number]]) -> FloatArray:
+    """A matrix of numbers, each of one vehicle or of every vehicle of a stack."""
+    entries = np.broadcast_arrays(*(entry for row in rows for entry in row))
+    matrix = np.stack(entries, axis=-1).astype(np.float64)
+    return matrix.reshape(*matrix.shape[:-1], len(rows), len(rows[0]))
+
+
+def _beside(matrix: FloatArray, column: FloatArray) -> FloatArray:
+    stack = np.broadcast_shapes(matrix.shape[:-1], column.shape)
+    columns = np.broadcast_to(column, stack)[..., np.newaxis]
+    return np.concatenate([np.broadcast_to(matrix, (*stack, matrix.shape[-1])), columns], axis=-1)
+
+
+def _first(number: Number | None) -> str:
+    return f"{np.ravel(np.asarray(number, dtype=np.float64))[0]:g}"
 
 
 def _listed(counts: tuple[int, ...]) -> str:
