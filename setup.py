@@ -53,6 +53,7 @@ setup(
     ],
     extras_require={
         "analysis": ["control>=0.10"],  # root locus, Bode and Nyquist by the field's own library
+        "bags": ["rosbags"],  # reads rosbag2 recordings with sqlite3 storage
         "cluster": ["distributed>=2024.5"],  # sweeps on other machines
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.

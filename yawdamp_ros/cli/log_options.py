@@ -1,26 +1,38 @@
-"""Options of the commands that read a steering log."""
+"""Options of the commands that read a recorded drive."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.logs import SteeringLog, is_recording, read_steering_csv, read_steering_mcap
+from yawdamp_ros.drives import Channel, Drive
+from yawdamp_ros.logs import SteeringLog
+from yawdamp_ros.logs.drive_formats import format_of, load_drive
 
 RATIOS = (1e-3, 1e3)
 """Least and largest steering ratio, as for the node."""
 
 
 def add_log_options(parser: argparse.ArgumentParser) -> None:
-    """Add what says how a steering log is to be read."""
-    group = parser.add_argument_group("steering log (CSV, MCAP file or rosbag2 directory)")
+    """Add what says how a recorded drive is to be read."""
+    group = parser.add_argument_group("drive (CSV, MCAP file, rosbag2 directory or MATLAB .mat)")
     group.add_argument(
         "--topic", help="of the steering in a recording; default: the one that fits, or is named so"
     )
     group.add_argument("--joint", help="that steers, where the topic has joint states; default: steering")
-    group.add_argument("--column", metavar="NAME", help="of a CSV; default: the one with 'steer' in it")
+    group.add_argument(
+        "--column", metavar="NAME", help="of the steering; default: the one with 'steer' in it"
+    )
     group.add_argument(
         "--degrees", action="store_true", help="it holds degrees (a column's name ending in _deg says so)"
+    )
+    group.add_argument(
+        "--channel",
+        action="append",
+        default=[],
+        metavar="NAME=PLACE[:UNIT]",
+        help="take a channel from a column, or a topic and field, as in speed=/can/speed.data:km/h or "
+        "truck/yaw_rate=-gyro:deg/s (a minus flips the sign); may be repeated",
     )
     group.add_argument(
         "--steering-ratio",
@@ -33,12 +45,14 @@ def add_log_options(parser: argparse.ArgumentParser) -> None:
 
 def log_options(options: argparse.Namespace) -> list[str]:
     """Those of these options that were given."""
-    names = ("topic", "joint", "column", "degrees", "steering_ratio", "start_offset")
-    return [name for name in names if getattr(options, name) not in {None, False}]
+    names = ("topic", "joint", "column", "degrees", "channel", "steering_ratio", "start_offset")
+    return [name for name in names if getattr(options, name)]
 
 
-def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
-    """Log of a path in road-wheel angles, cut as the options say.
+def chosen_drive(
+    path: str, options: argparse.Namespace, duration: float | None, *, measured: bool = True
+) -> Drive:
+    """Drive of a path in road-wheel angles, cut as the options say.
 
     Raises
     ------
@@ -49,19 +63,29 @@ def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -
     if not RATIOS[0] <= ratio <= RATIOS[1]:
         message = f"--steering-ratio: {ratio}: expected a number from {RATIOS[0]:g} to {RATIOS[1]:g}"
         raise UsageError(message)
-    log = _read(Path(path), options)
-    if log.warning:
-        print(f"warning: {log.warning}", file=sys.stderr)
-    return log.divided(ratio).window(options.start_offset or 0.0, duration)
-
-
-def _read(path: Path, options: argparse.Namespace) -> SteeringLog:
-    recording = is_recording(path)
+    recording = format_of(Path(path)).has_topics
     for option in ("column",) if recording else ("topic", "joint"):
         if getattr(options, option) is not None:
-            message = f"--{option}: {path} is {'a recording' if recording else 'a CSV'} and has none"
+            message = f"--{option}: {path} is {'a recording' if recording else 'a table'} and has none"
             raise UsageError(message)
-    if recording:
-        joint = options.joint or "steering"
-        return read_steering_mcap(path, options.topic, joint=joint, degrees=options.degrees)
-    return read_steering_csv(path, options.column, degrees=options.degrees)
+    drive = load_drive(
+        path,
+        column=options.column,
+        topic=options.topic,
+        joint=options.joint or "steering",
+        degrees=options.degrees,
+        channels=options.channel,
+        measured=measured,
+    )
+    if drive.warning:
+        print(f"warning: {drive.warning}", file=sys.stderr)
+    return drive.steered_by(ratio).window(options.start_offset or 0.0, duration)
+
+
+def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
+    """Steering of a drive of a path in road-wheel angles, cut as the options say."""
+    drive = chosen_drive(path, options, duration, measured=False)
+    steering: Channel = drive["steering"]
+    return SteeringLog(
+        drive.source, steering.times.tolist(), steering.values.tolist(), drive.start_time, drive.warning
+    )

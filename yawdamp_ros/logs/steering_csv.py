@@ -52,7 +52,7 @@ def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bo
         raise LogError(
             path, f"no time column; expected one of {', '.join(TIME_COLUMNS)} among {_listed(header)}"
         )
-    angle_column = _steering_column(header, column, path)
+    angle_column = steering_column(header, column, path)
     at_time, at_angle = header.index(time_column), header.index(angle_column)
     scale = math.pi / 180.0 if degrees or angle_column.endswith("_deg") else 1.0
     times: list[float] = []
@@ -77,7 +77,14 @@ def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bo
     return SteeringLog(str(path), [time - times[0] for time in times], angles)
 
 
-def _steering_column(header: Sequence[str], column: str | None, path: Path) -> str:
+def steering_column(header: Sequence[str], column: str | None, path: Path) -> str:
+    """Column that is asked for, else the one that is named after steering.
+
+    Raises
+    ------
+    LogError
+        If there is no such column, or several are named so.
+    """
     if column is not None:
         if column not in header:
             raise LogError(path, f"{column}: no such column; expected one of {_listed(header)}")

@@ -1,10 +1,11 @@
 """Steering logs in recordings: found by topic or by type, decoded by the definitions in the file."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from yawdamp_ros.logs.channel_names import named
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder, RecordedMessage
 from yawdamp_ros.logs.steering_log import LARGEST_ANGLE, SteeringLog
@@ -49,12 +50,20 @@ def read_steering_mcap(
         topics[message.topic] = message.type_name
         if message.type_name in STEERING_TYPES and topic in {None, message.topic}:
             found.setdefault(message.topic, []).append(message)
-    chosen = _choose(topic, topics, path, log.warning)
-    messages = sorted(found[chosen], key=lambda message: message.log_time)
-    return _steering_log(path, chosen, messages, joint, degrees=degrees, warning=log.warning)
+    chosen = steering_topic(topic, topics, path, log.warning)
+    return steering_log(path, chosen, found[chosen], joint, degrees=degrees, warning=log.warning)
 
 
-def _choose(topic: str | None, topics: Mapping[str, str], path: Path, warning: str) -> str:
+def steering_topic(topic: str | None, topics: Mapping[str, str], path: Path, warning: str) -> str:
+    """Topic that is asked for, else the one that fits.
+
+    A topic whose name says another quantity, such as ``yaw_rate``, does not.
+
+    Raises
+    ------
+    LogError
+        If there is no such topic, or several fit.
+    """
     fitting = [name for name, kind in topics.items() if kind in STEERING_TYPES]
     if topic is not None:
         if topic not in topics:
@@ -62,27 +71,36 @@ def _choose(topic: str | None, topics: Mapping[str, str], path: Path, warning: s
         if topic not in fitting:
             raise LogError(path, f"{topic}: {topics[topic]}: expected one of {', '.join(STEERING_TYPES)}")
         return topic
-    named = [name for name in fitting if "steer" in name.rpartition("/")[2].lower()]
-    for candidates in (named, fitting):
+    fitting = [name for name in fitting if named(name) is None]
+    so_named = [name for name in fitting if "steer" in name.rpartition("/")[2].lower()]
+    for candidates in (so_named, fitting):
         if len(candidates) == 1:
             return candidates[0]
     if not fitting:
         why = f"; {warning}" if warning else ""
         raise LogError(path, f"no steering in it; its topics: {_listed(topics) or 'none'}{why}")
     raise LogError(
-        path, f"several topics could be steering; name one with --topic: {_listed(named or fitting)}"
+        path, f"several topics could be steering; name one with --topic: {_listed(so_named or fitting)}"
     )
 
 
-def _steering_log(  # noqa: PLR0913 - it gathers what was found
+def steering_log(  # noqa: PLR0913 - it gathers what was found
     path: Path,
     topic: str,
-    messages: list[RecordedMessage],
+    found: Sequence[RecordedMessage],
     joint: str,
     *,
     degrees: bool,
     warning: str,
 ) -> SteeringLog:
+    """Steering log of the messages of a topic, in the order of their log times.
+
+    Raises
+    ------
+    LogError
+        If a value is none.
+    """
+    messages = sorted(found, key=lambda message: message.log_time)
     decode = MessageDecoder()
     scale = math.pi / 180.0 if degrees else 1.0
     stamps: list[int] = []

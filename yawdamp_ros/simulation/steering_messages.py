@@ -21,6 +21,10 @@ STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyT
         "ackermann_msgs/msg/AckermannDriveStamped": lambda message, _: float(message.drive.steering_angle),
         "autoware_control_msgs/msg/Lateral": lambda message, _: float(message.steering_tire_angle),
         "autoware_control_msgs/msg/Control": lambda message, _: float(message.lateral.steering_tire_angle),
+        "autoware_vehicle_msgs/msg/SteeringReport": lambda message, _: float(message.steering_tire_angle),
+        "autoware_auto_vehicle_msgs/msg/SteeringReport": lambda message, _: float(
+            message.steering_tire_angle
+        ),
     }
 )
 """Types that can hold steering, each with the way to its angle in rad, left positive."""

@@ -1,0 +1,96 @@
+"""One signal of a recorded drive, with its own time base."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from yawdamp_ros.dynamics.kinematics import FloatArray
+
+QUANTITIES: Mapping[str, str] = MappingProxyType(
+    {
+        "steering": "rad",
+        "speed": "m/s",
+        "acceleration": "m/s^2",
+        "yaw": "rad",
+        "yaw_rate": "rad/s",
+        "lateral_acceleration": "m/s^2",
+        "articulation": "rad",
+        "x": "m",
+        "y": "m",
+    }
+)
+"""Quantities that a drive can hold, each with the unit in which it is kept."""
+
+UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
+    {
+        "rad": ("rad", 1.0),
+        "deg": ("rad", math.pi / 180.0),
+        "rad/s": ("rad/s", 1.0),
+        "deg/s": ("rad/s", math.pi / 180.0),
+        "m/s": ("m/s", 1.0),
+        "km/h": ("m/s", 1.0 / 3.6),
+        "mph": ("m/s", 0.44704),
+        "m/s^2": ("m/s^2", 1.0),
+        "g": ("m/s^2", 9.80665),
+        "m": ("m", 1.0),
+    }
+)
+"""Units that a log may use, each with the SI unit and the factor to it."""
+
+
+def quantity_of(name: str) -> str:
+    """Quantity of a channel's name: ``yaw_rate`` of ``truck/yaw_rate``."""
+    last = name.rpartition("/")[2]
+    return "articulation" if last.startswith("articulation_") else last
+
+
+@dataclass(frozen=True)
+class Channel:
+    """Samples of one quantity in SI units; signs are those of REP-103, left positive.
+
+    Attributes
+    ----------
+    name : str
+        A quantity of `QUANTITIES`, after ``<unit>/`` where the log tells the unit of the vehicle;
+        articulation angles are ``articulation_1`` onwards.
+    source : str
+        Where in the log it was found, and how it was converted.
+    times : ndarray, shape (m,)
+        In s from the start of the drive, not decreasing.
+    values : ndarray, shape (m,)
+        Finite.
+    """
+
+    name: str
+    source: str
+    times: FloatArray
+    values: FloatArray
+
+    @property
+    def unit(self) -> str:
+        """Unit of the values."""
+        return QUANTITIES[quantity_of(self.name)]
+
+    @property
+    def rate(self) -> float:
+        """Samples per second, by the median interval; 0 of a single sample."""
+        step = float(np.median(np.diff(self.times))) if len(self.times) > 1 else 0.0
+        return 1.0 / step if step > 0.0 else 0.0
+
+    def held(self, times: FloatArray) -> FloatArray:
+        """Newest value at each time in s; the first before there is one."""
+        places = np.searchsorted(self.times, times, side="right") - 1
+        held: FloatArray = self.values[np.maximum(places, 0)]
+        return held
+
+    def interpolated(self, times: FloatArray) -> FloatArray:
+        """Value at each time in s, linear between samples."""
+        return np.interp(times, self.times, self.values)
+
+    def window(self, start: float, end: float) -> "Channel":
+        """Samples from a start to an end in s; time starts anew at the start."""
+        kept = (self.times >= start) & (self.times <= end)
+        return replace(self, times=self.times[kept] - start, values=self.values[kept])

@@ -1,0 +1,115 @@
+"""A recorded drive: what steered a vehicle, how fast it went, and what was measured on it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yawdamp_ros.drives.channel import Channel
+from yawdamp_ros.drives.errors import DriveError
+
+INPUTS = ("steering", "speed", "acceleration")
+"""Channels that act on a vehicle; every other one was measured on it."""
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Channels of one recorded drive.
+
+    Attributes
+    ----------
+    source : str
+        File it came from.
+    channels : mapping of str to Channel
+        By name.
+    start_time : int
+        Time in ns at which the channels' time is 0, where the log knows; else 0.
+    notes : tuple of str
+        What was left out of the log, and why.
+    warning : str
+        What is wrong with the file, though these channels could be read; else empty.
+    """
+
+    source: str
+    channels: Mapping[str, Channel]
+    start_time: int = 0
+    notes: tuple[str, ...] = ()
+    warning: str = ""
+
+    def __getitem__(self, name: str) -> Channel:
+        """Channel of a name.
+
+        Raises
+        ------
+        DriveError
+            If the drive has no such channel.
+        """
+        if name not in self.channels:
+            held = ", ".join(self.channels) or "nothing"
+            message = f"{self.source}: no {name}; the drive has {held}"
+            raise DriveError(message)
+        return self.channels[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.channels
+
+    @property
+    def measured(self) -> tuple[Channel, ...]:
+        """Channels that are no input."""
+        return tuple(channel for name, channel in self.channels.items() if name not in INPUTS)
+
+    @property
+    def duration(self) -> float:
+        """Time of the last steering sample in s, or of the last of any channel where none steers."""
+        if "steering" in self:
+            return float(self["steering"].times[-1])
+        return max((float(channel.times[-1]) for channel in self.channels.values()), default=0.0)
+
+    def speed(self, start: float) -> Channel | None:
+        """Speed, or what the acceleration makes of a speed at the start in m/s; None without both."""
+        if "speed" in self or "acceleration" not in self:
+            return self.channels.get("speed")
+        given = self["acceleration"]
+        gained = np.concatenate([[0.0], np.cumsum(np.diff(given.times) * given.values[:-1])])
+        return Channel("speed", f"integral of {given.source}", given.times, start + gained)
+
+    def steered_by(self, ratio: float) -> "Drive":
+        """Divide the steering by a ratio, such as that of hand wheel to road wheel.
+
+        Raises
+        ------
+        DriveError
+            If the drive has no steering.
+        """
+        steering = self["steering"]
+        divided = replace(steering, values=steering.values / ratio)
+        return replace(self, channels={**self.channels, "steering": divided})
+
+    def window(self, start: float, duration: float | None = None) -> "Drive":
+        """Part from a start on, for a duration, both in s; its time starts anew.
+
+        Raises
+        ------
+        DriveError
+            If no sample of the steering is left.
+        """
+        end = float("inf") if duration is None else start + duration
+        cut = {name: channel.window(start, end) for name, channel in self.channels.items()}
+        kept = {name: channel for name, channel in cut.items() if len(channel.times)}
+        if not kept or ("steering" in self and "steering" not in kept):
+            message = (
+                f"{self.source}: no sample between {start:g} s and {end:g} s; "
+                f"the drive lasts {self.duration:g} s"
+            )
+            raise DriveError(message)
+        return replace(
+            self, channels=kept, start_time=self.start_time and self.start_time + round(start * 1e9)
+        )
+
+    def described(self) -> list[str]:
+        """One line for each channel: what was taken for it."""
+        return [
+            f"{channel.name}: {channel.source}, {len(channel.times)} samples, {channel.rate:.3g} Hz, "
+            f"{channel.values.min():.4g} to {channel.values.max():.4g} {channel.unit}"
+            for channel in self.channels.values()
+        ]

@@ -1,0 +1,32 @@
+"""How a recorded drive is to be read."""
+
+from typing import NamedTuple
+
+from yawdamp_ros.logs.channel_names import Wish
+
+
+class DriveOptions(NamedTuple):
+    """What the reader of a drive is told; by default it finds everything by names and types.
+
+    Attributes
+    ----------
+    column : str or None
+        Steering column of a table.
+    topic : str or None
+        Steering topic of a recording.
+    joint : str
+        Joint that steers, where the steering comes as joint states.
+    degrees : bool
+        Whether the steering is in degrees.
+    wishes : tuple of Wish
+        Channels taken from a named place.
+    measured : bool
+        Whether to read what was measured, too; else only what acts on a vehicle.
+    """
+
+    column: str | None = None
+    topic: str | None = None
+    joint: str = "steering"
+    degrees: bool = False
+    wishes: tuple[Wish, ...] = ()
+    measured: bool = True
