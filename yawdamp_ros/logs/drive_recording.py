@@ -16,7 +16,7 @@ from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder, RecordedMessage
 from yawdamp_ros.logs.steering_log import SteeringLog
 from yawdamp_ros.logs.steering_mcap import steering_log, steering_topic
-from yawdamp_ros.logs.steering_messages import STEERING_TYPES, message_stamp
+from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_stamp
 from yawdamp_ros.stepping.time_grid import SECOND
 
 LARGEST_SKEW = 5.0

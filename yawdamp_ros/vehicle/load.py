@@ -122,6 +122,24 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     return _build(data, source)
 
 
+def value_at(vehicle: VehicleSource, key: str, source: str = "vehicle") -> float:
+    """Number at a key of a vehicle file with its overrides.
+
+    Raises
+    ------
+    VehicleError
+        If there is no number there.
+    """
+    node = _overridden(vehicle.text, source, vehicle.overrides)
+    try:
+        for part in key.split("."):
+            node = node[int(part)] if isinstance(node, list) else node[part]
+        number = float(node)
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise VehicleError(source, key, "no number there; expected a key of the file") from error
+    return number
+
+
 def load_stack(
     text: str, source: str, overrides: Sequence[str], values: Mapping[str, npt.NDArray[np.float64]]
 ) -> Vehicle:

@@ -1,0 +1,91 @@
+"""Residuals as a vector autoregression: they are rarely white, and their channels are coupled."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from yawdamp_ros.dynamics.kinematics import FloatArray
+
+ORDERS = (0, 1, 2, 3, 5, 8, 13, 21)
+"""Of the autoregression, of which the Bayesian information criterion takes one."""
+
+
+class NoiseModel(NamedTuple):
+    """``r_t = sum_i coefficients[i] r_(t-1-i) + e_t`` with white e of covariance ``factor factor'``.
+
+    Attributes
+    ----------
+    coefficients : ndarray, shape (p, m, m)
+    factor : ndarray, shape (m, m)
+        Lower triangular.
+    """
+
+    coefficients: FloatArray
+    factor: FloatArray
+
+    @property
+    def order(self) -> int:
+        """Number of coefficients."""
+        return len(self.coefficients)
+
+    def whitened(self, residuals: FloatArray) -> FloatArray:
+        """Innovations, of unit variance, of residuals of shape (k, m, ...); the first `order` are left out.
+
+        Returns
+        -------
+        ndarray, shape (k - p, m, ...)
+        """
+        shape = (-1, *residuals.shape[1:])
+        count, order = len(residuals), self.order
+        flat = residuals.reshape(count, residuals.shape[1], -1)
+        innovations = flat[order:].copy()
+        for index, coefficients in enumerate(self.coefficients):
+            innovations -= np.matmul(coefficients, flat[order - 1 - index : count - 1 - index])
+        across = innovations.transpose(1, 0, 2)
+        white = solve_triangular(self.factor, across.reshape(len(self.factor), -1), lower=True)
+        return np.asarray(white.reshape(across.shape).transpose(1, 0, 2).reshape(shape), dtype=np.float64)
+
+
+def independent(residuals: FloatArray) -> NoiseModel:
+    """White noise, each channel its own, of the size of residuals of shape (k, m)."""
+    sizes = np.sqrt(np.mean(residuals**2, axis=0))
+    return NoiseModel(np.zeros((0, len(sizes), len(sizes))), np.diag(np.where(sizes > 0.0, sizes, 1.0)))
+
+
+def fitted(residuals: FloatArray) -> NoiseModel:
+    """Autoregression of residuals of shape (k, m) by the Yule-Walker equations."""
+    count, size = residuals.shape
+    orders = [order for order in ORDERS if (order * size + 1) * 10 < count]
+    lags = max(orders, default=0)
+    covariances: list[FloatArray] = [
+        residuals[lag:].T @ residuals[: count - lag] / count for lag in range(lags + 1)
+    ]
+    # What is constant has no noise: a little keeps the equations regular.
+    covariances[0] = covariances[0] + 1e-12 * np.eye(size) * max(float(np.trace(covariances[0])), 1e-300)
+    models = [_yule_walker(covariances, order) for order in orders]
+    criteria = [
+        2.0 * count * float(np.log(np.diag(model.factor)).sum()) + model.order * size**2 * np.log(count)
+        for model in models
+    ]
+    return models[int(np.argmin(criteria))]
+
+
+def _yule_walker(covariances: list[FloatArray], order: int) -> NoiseModel:
+    size = len(covariances[0])
+
+    def at(lag: int) -> FloatArray:
+        return covariances[lag] if lag >= 0 else covariances[-lag].T
+
+    if not order:
+        return NoiseModel(np.zeros((0, size, size)), _factor(covariances[0]))
+    right = np.hstack([at(lag) for lag in range(1, order + 1)])
+    toeplitz = np.block([[at(column - row) for column in range(order)] for row in range(order)])
+    stacked = np.linalg.solve(toeplitz.T, right.T).T
+    innovation = covariances[0] - stacked @ right.T
+    coefficients = stacked.reshape(size, order, size).transpose(1, 0, 2)
+    return NoiseModel(coefficients, _factor(0.5 * (innovation + innovation.T)))
+
+
+def _factor(covariance: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
