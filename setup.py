@@ -49,6 +49,7 @@ setup(
         "ruamel.yaml>=0.17",  # YAML 1.2 that refuses a key given twice
         "rich>=13",  # progress bars and tables for terminals
         "matplotlib>=3.6",  # the field's plotting library
+        "threadpoolctl>=3.1",  # tells which kernels the BLAS has chosen, which the last bits depend on
         "plotly>=5.18",  # pages of curves to zoom into, which load nothing from elsewhere
     ],
     extras_require={

@@ -1,3 +1,8 @@
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -27,3 +32,29 @@ def test_the_exponential_of_a_rotation_is_one() -> None:
 def test_products_are_too_small_to_be_split_over_threads(name: str) -> None:
     steps = propagator(linear_model(load_vehicle(name)), 0.001).steps
     assert steps.size < LARGEST_PRODUCT
+
+
+def test_bits_of_up_to_50_units_do_not_depend_on_how_many_threads_there_are() -> None:
+    program = """
+import hashlib
+import numpy as np
+from random_vehicles import made_up
+from yawdamp_ros import linear_model
+from yawdamp_ros.stepping.response import linear_response
+for units in (8, 31, 32, 33, 40, 44, 46, 47, 48, 49, 50):
+    model = linear_model(made_up(np.random.default_rng(units), (units, units)), 3.0)
+    states, outputs = linear_response(model, np.full(40, 0.01), 0.001)
+    print(units, hashlib.sha256(states.tobytes() + outputs.tobytes()).hexdigest())
+"""
+    printed = set()
+    for threads in (1, 2, 3, 7):
+        environment = {
+            **os.environ,
+            "OPENBLAS_NUM_THREADS": str(threads),
+            "PYTHONPATH": str(Path(__file__).parents[1]),
+        }
+        done = subprocess.run(
+            [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
+        )
+        printed.add(done.stdout)
+    assert len(printed) == 1

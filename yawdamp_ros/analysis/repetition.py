@@ -9,8 +9,12 @@ from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.stepping import Response, TimeGrid
 from yawdamp_ros.stepping.response import respond
 
-TOLERANCE = 1e-12
-"""Relative to the largest magnitude of a quantity; what is promised where bit-identity is not."""
+TOLERANCE = 1e-9
+"""Of the largest magnitude of a quantity, of any unit, over the run; promised where bit-identity is not.
+
+A value that starts from 0, or that all but cancels, keeps fewer digits than the motion it is part of. Between
+builds of NumPy and BLAS kernels 1,000 random stable vehicles of up to 12 units differ by up to 2e-12.
+"""
 
 QUANTITIES = ("yaw", "yaw_rate", "lateral_acceleration", "articulation")
 

@@ -79,7 +79,7 @@ def _of_recording(path: Path, options: argparse.Namespace) -> Answer:
     return Answer(
         agrees=run.agrees,
         bit_identical=run.bit_identical,
-        promise="bit-identical" if run.promised else "1e-12 relative",
+        promise="bit-identical" if run.promised else "1e-9 of the motion",
         reason=reason,
         duration=run.duration,
         samples=run.samples,
@@ -106,7 +106,7 @@ def _of_csv(path: Path, options: argparse.Namespace) -> Answer:
     return Answer(
         agrees=parting is None,
         bit_identical=first_parting(recorded, repeated, 0.0) is None,
-        promise="1e-12 relative",
+        promise="1e-9 of the motion",
         reason="a CSV file does not say where it was made",
         duration=float(recorded.time[-1]),
         samples=len(recorded.time),

@@ -17,6 +17,7 @@ from yawdamp_ros.nodes.messages import (
     type_name,
 )
 from yawdamp_ros.stepping import Sample, Stepper, TimeGrid
+from yawdamp_ros.stepping.build import build_of_numerics
 from yawdamp_ros.vehicle import VehicleSource
 from yawdamp_ros.version import VERSION
 
@@ -91,17 +92,6 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
         "build": build_of_numerics(),
     }
     return RunWriter(directory, channels, {VEHICLE_FILE: vehicle.text}, {METADATA_NAME: metadata})
-
-
-def build_of_numerics() -> str:
-    """What the last bit of a result depends on: machine, NumPy, and the BLAS kernels in use."""
-    configuration = np.show_config(mode="dicts")
-    blas = configuration["Build Dependencies"]["blas"]
-    extensions = configuration["SIMD Extensions"].get("found", [])
-    return (
-        f"{platform.machine()} ({' '.join(extensions)}), numpy {np.__version__}, "
-        f"{blas['name']} {blas['version']}"
-    )
 
 
 def run_messages(

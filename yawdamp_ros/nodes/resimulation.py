@@ -5,21 +5,21 @@ import struct
 from collections.abc import Iterator, Mapping
 from itertools import chain, groupby
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from rclpy.serialization import deserialize_message
 
+from yawdamp_ros.analysis.repetition import TOLERANCE
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.logs import LogError, McapLog, RecordedMessage
+from yawdamp_ros.nodes.deviations import Deviations, Difference, quantity
 from yawdamp_ros.nodes.messages import Noise, OutputMessages
-from yawdamp_ros.nodes.recording import METADATA_NAME, VEHICLE_FILE, build_of_numerics
+from yawdamp_ros.nodes.recording import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.stepping import AppliedInput, Snapshot, Stepper
+from yawdamp_ros.stepping.build import build_of_numerics
 from yawdamp_ros.stepping.time_grid import SECOND
 from yawdamp_ros.vehicle import parse_vehicle
-
-TOLERANCE = 1e-12
-"""Relative to the largest magnitude of a value so far; what is promised where bit-identity is not."""
 
 SHORTEST_STEP = 1000
 """In ns, as for the node."""
@@ -28,26 +28,6 @@ MOST_STEPS = 10_000_000
 """Steps from one sample to the next, as for the node: at its shortest step and its lowest rate."""
 
 Value = float | int | str | bool
-
-
-class Difference(NamedTuple):
-    """Where a run and its repetition part.
-
-    Attributes
-    ----------
-    topic : str
-    time : float
-        Simulated time in s.
-    field : str
-        Path of the value in the message.
-    recorded, repeated : str
-    """
-
-    topic: str
-    time: float
-    field: str
-    recorded: str
-    repeated: str
 
 
 class Resimulation:
@@ -123,7 +103,7 @@ class Resimulation:
         self.difference: Difference | None = None
         self.bit_identical = True
         self._value_counts: dict[str, int] = {}
-        self._largest: dict[tuple[str, str], float] = {}
+        self._deviations = Deviations()
 
     @property
     def agrees(self) -> bool:
@@ -178,6 +158,8 @@ class Resimulation:
                     return
             self.samples += 1
             yield self.duration
+        if self._deviations.found:
+            self.difference = self._deviations.first_beyond(TOLERANCE, self._sizes())
 
     def _at_the_start(self) -> tuple[OutputMessages, Stepper]:
         """What the messages and the model were when the recording began."""
@@ -242,12 +224,23 @@ class Resimulation:
     def _same(self, topic: str, field: str, one: Value, other: Value) -> bool:
         if not isinstance(one, float) or not isinstance(other, float):
             return one == other
-        largest = max(self._largest.get((topic, field), 0.0), abs(one))
-        self._largest[topic, field] = largest
         if struct.pack("<d", one) == struct.pack("<d", other):
             return True
         self.bit_identical = False
-        return not self.promised and abs(one - other) <= TOLERANCE * largest
+        self._deviations.note(topic, self.duration, field, one, other)
+        return not self.promised
+
+    def _sizes(self) -> dict[str, float]:
+        """Largest magnitude of every quantity over the run."""
+        kinds = {self._outputs[name]: kind for name, kind in self._start[0].types.items()}
+        sizes: dict[str, float] = {}
+        for message in McapLog(self._log.path).messages():
+            if message.topic in kinds:
+                for field, value in _values(deserialize_message(message.data, kinds[message.topic])):
+                    if isinstance(value, float):
+                        key = quantity(message.topic, field)
+                        sizes[key] = max(sizes.get(key, 0.0), abs(value))
+        return sizes
 
 
 def _values(message: Any, path: str = "") -> Iterator[tuple[str, Value]]:  # noqa: ANN401 - generated

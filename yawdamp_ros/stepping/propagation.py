@@ -1,6 +1,7 @@
 """The zero-order hold by matrix exponential, many steps at once."""
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +12,9 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 LONGEST_BLOCK = 32
 """Most steps that are computed from one start."""
 LARGEST_PRODUCT = 9216
-"""Elements from which OpenBLAS splits a product over threads, whose sums depend on how many there are."""
+"""Elements from which OpenBLAS splits a product with a vector over threads, on whose number bits depend."""
+LARGEST_MATRIX_PRODUCT = 262144
+"""Multiplications up to which it does not split a product of matrices."""
 
 
 class Propagator(NamedTuple):
@@ -30,6 +33,17 @@ class Propagator(NamedTuple):
     model: LinearModel
     steps: FloatArray
     outputs: FloatArray
+
+    @property
+    def dot(self) -> Callable[[FloatArray, FloatArray], object]:
+        """Product of `steps` and a vector, into another."""
+        return self.steps.dot if self.steps.size < LARGEST_PRODUCT else self._dot_by_parts
+
+    def _dot_by_parts(self, vector: FloatArray, product: FloatArray) -> None:
+        rows = (LARGEST_PRODUCT - 1) // self.steps.shape[1]
+        for begin in range(0, len(self.steps), rows):
+            part = slice(begin, begin + rows)
+            self.steps[part].dot(vector, product[part])
 
 
 class Propagation:
@@ -118,7 +132,7 @@ class Propagation:
                 end = done + min(self._block - self._taken, left)
                 self._taken += end - done
                 self._angles[first : self._taken + 1] = angles[done:end]
-                self.propagator.steps.dot(self._start, self._product)
+                self.propagator.dot(self._start, self._product)
                 states[done:end] = self._after[first : self._taken + 1]
                 blocks.append((end - done, turned))
             done = end
@@ -128,7 +142,7 @@ class Propagation:
         """Take whole blocks from the start of one; return all but the first, which is the caller's."""
         starting = np.append(self._angles[0], angles)
         products = states.reshape(-1, len(self._product))
-        dot, start, state, held = self.propagator.steps.dot, self._start, self._state, self._angles
+        dot, start, state, held = self.propagator.dot, self._start, self._state, self._angles
         size, block = len(state), self._block
         # What an unstable motion grows to is for the caller to judge.
         with np.errstate(over="ignore", invalid="ignore"):
@@ -168,7 +182,7 @@ def _steps(model: LinearModel, step_size: float) -> FloatArray:
     before = np.eye(size + 1, size + block + 1)
     before[-1, size] = 0.0
     for index, after in enumerate(steps):
-        np.matmul(transition, before, out=after)
+        after[...] = _matrix_product(transition, before)
         after[:, size + index] = by_angle
         before = after
     return steps.reshape(-1, size + block + 1)
@@ -195,11 +209,20 @@ def exponential(matrix: FloatArray) -> FloatArray:
     result = term.copy()
     # Of a norm of at most a half the 17th power over 17! is 2e-20.
     for power in range(1, 17):
-        term = term @ scaled / power
+        term = _matrix_product(term, scaled) / power
         result += term
     for _ in range(squarings):
-        result = result @ result
+        result = _matrix_product(result, result)
     return result
+
+
+def _matrix_product(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Product whose bits do not depend on how many threads there are."""
+    columns = max(LARGEST_MATRIX_PRODUCT // left.size, 1)
+    if right.shape[1] <= columns:
+        return left @ right
+    parts = [left @ right[:, begin : begin + columns] for begin in range(0, right.shape[1], columns)]
+    return np.hstack(parts)
 
 
 def _block_length(size: int) -> int:

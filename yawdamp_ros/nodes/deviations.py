@@ -1,0 +1,69 @@
+"""Values that are not those recorded, judged by the size of the motion that they are part of."""
+
+import re
+from collections.abc import Mapping
+from typing import NamedTuple
+
+_INDEX = re.compile(r"\[\d+\]")
+
+
+class Difference(NamedTuple):
+    """Where a run and its repetition part.
+
+    Attributes
+    ----------
+    topic : str
+    time : float
+        Simulated time in s.
+    field : str
+        Path of the value in the message.
+    recorded, repeated : str
+    """
+
+    topic: str
+    time: float
+    field: str
+    recorded: str
+    repeated: str
+
+
+class Deviations:
+    """Deviations of a run, to be judged once the size of the motion over all of it is known."""
+
+    def __init__(self) -> None:
+        # Only a value that lies farther off than all before can be the first beyond a bound.
+        self._rising: dict[str, list[tuple[float, Difference]]] = {}
+
+    @property
+    def found(self) -> bool:
+        """Whether there is any."""
+        return bool(self._rising)
+
+    def note(self, topic: str, time: float, field: str, recorded: float, repeated: float) -> None:
+        """Take a recorded value and another that came out."""
+        deviation = abs(repeated - recorded)
+        rising = self._rising.setdefault(quantity(topic, field), [])
+        if not rising or not deviation <= rising[-1][0]:  # said this way round, what is no number counts, too
+            rising.append((deviation, Difference(topic, time, field, repr(recorded), repr(repeated))))
+
+    def first_beyond(self, tolerance: float, sizes: Mapping[str, float]) -> Difference | None:
+        """First value that is off by more than a share of the size of its quantity.
+
+        Parameters
+        ----------
+        tolerance : float
+        sizes : mapping of str to float
+            Largest magnitude over the run by `quantity`.
+        """
+        beyond = [
+            found
+            for key, rising in self._rising.items()
+            for deviation, found in rising
+            if not deviation <= tolerance * sizes.get(key, 0.0)
+        ]
+        return min(beyond, key=lambda found: found.time, default=None)
+
+
+def quantity(topic: str, field: str) -> str:
+    """Name of what a field holds, the same for all units and joints: their values are of one size."""
+    return f"{topic.rsplit('/', 1)[-1]} {_INDEX.sub('', field)}"

@@ -1,0 +1,35 @@
+"""What the last bit of a result depends on."""
+
+import platform
+
+import numpy as np
+
+
+def build_of_numerics() -> str:
+    """Machine, NumPy, and the BLAS with the kernels that it has chosen, in a line.
+
+    OpenBLAS picks its kernels when it loads, by the processor or by ``OPENBLAS_CORETYPE``; threadpoolctl asks
+    it which. Without threadpoolctl the line says that they are not known.
+    """
+    configuration = np.show_config(mode="dicts")
+    blas = configuration["Build Dependencies"]["blas"]
+    extensions = configuration["SIMD Extensions"].get("found", [])
+    return (
+        f"{platform.machine()} ({' '.join(extensions)}), numpy {np.__version__}, "
+        f"{blas['name']} {blas['version']}, {_kernels()}"
+    )
+
+
+def _kernels() -> str:
+    try:
+        # Here and not above: few need it, and installations by distributions may lack it.
+        from threadpoolctl import threadpool_info  # noqa: PLC0415
+    except ImportError:
+        return "kernels not known (no threadpoolctl)"
+    # SciPy brings a BLAS of its own, which no step is computed with.
+    found = [
+        library["architecture"]
+        for library in threadpool_info()
+        if library.get("architecture") and "scipy.libs" not in library["filepath"]
+    ]
+    return f"{' '.join(dict.fromkeys(found)) or 'unnamed'} kernels"
