@@ -59,7 +59,12 @@ def test_a_manoeuvre_arrives_over_the_graph_as_the_model_has_it(graph: Graph) ->
         assert {message.header.frame_id for message in imu} == {unit}
         at = samples(f"/{unit}/odom")
         assert {(message.header.frame_id, message.child_frame_id) for message in odom} == {("odom", unit)}
-        assert {message.twist.twist.linear.x for message in odom} == {load_vehicle("interlink").speed}
+        forward = [message.twist.twist.linear.x for message in odom]
+        speed = load_vehicle("interlink").speed
+        # A trailer at an angle to the truck is slower along its own axis.
+        assert (
+            set(forward) == {speed} if index == 0 else forward == pytest.approx([speed] * len(odom), rel=0.01)
+        )
         assert [message.pose.pose.position.x for message in odom] == list(expected.x[at, index])
         assert [message.pose.pose.position.y for message in odom] == list(expected.y[at, index])
         scalars = [message.data for message in graph.messages(f"/{unit}/yaw")]

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
-from yawdamp_ros.stepping import Sample, Stepper, SteppingError
+from yawdamp_ros.stepping import Sample, Snapshot, Stepper, SteppingError
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle
 
 
@@ -280,3 +280,21 @@ def test_an_unstable_motion_ends_before_its_numbers_do() -> None:
     stepper = Stepper(linear_model(load_vehicle("interlink", skidding)), 1.0)
     with pytest.raises(SteppingError, match=r"interlink: unstable, beyond all numbers at 8. s"):
         run(stepper, 1000, lambda _: 0.1)
+
+
+@pytest.mark.parametrize("articulation", [0.0, 0.4, 0.9, -1.3])
+def test_velocity_of_every_unit_is_the_rate_of_its_pose_at_any_articulation(articulation: float) -> None:
+    model, step = linear_model(load_vehicle("interlink"), 3.0), 1e-6
+    stepper = Stepper(model, step)
+    state = (0.3, 0.4, 0.1, -0.5, articulation, 0.5 * articulation)
+    stepper.restore(Snapshot(0, 3.0, 0.0, state, 0.7, 0.0, 3.0, -2.0, sampled=False))
+    before = stepper.sample()
+    stepper.advance()
+    now = stepper.sample()
+    stepper.advance()
+    after = stepper.sample()
+    rate = (after.x - before.x + 1j * (after.y - before.y)) / (2.0 * step)
+    np.testing.assert_allclose(now.velocity * now.heading, rate, atol=1e-6)
+    assert now.velocity[0] == pytest.approx(3.0 + 0.3j, abs=1e-3)
+    if abs(articulation) == 0.9:
+        assert abs(now.velocity[-1] - (3.0 + 1j * now.lateral_velocity[-1])) > 1.0

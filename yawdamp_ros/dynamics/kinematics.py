@@ -61,3 +61,47 @@ def coupled_positions(
         hitch = positions[..., index] + rear_hitch * heading[..., index]
         positions[..., index + 1] = hitch - front_hitch * heading[..., index + 1]
     return positions
+
+
+def coupled_velocities(
+    hitches: Sequence[tuple[float, float]],
+    lead: tuple[FloatArray, FloatArray],
+    yaw_rate: FloatArray,
+    heading: ComplexArray,
+) -> ComplexArray:
+    """Velocities of the centres of gravity by the true geometry of the hitches, each in its unit's own frame.
+
+    They are the rates of `coupled_positions`, at any articulation.
+
+    Parameters
+    ----------
+    hitches : sequence of (float, float)
+        As `Vehicle.hitches`.
+    lead : (ndarray, ndarray)
+        Longitudinal and lateral velocity of the lead unit, m/s, shape (...).
+    yaw_rate : ndarray, shape (..., n)
+        rad/s.
+    heading : ndarray of complex, shape (..., n)
+        ``cos(yaw) + i sin(yaw)`` of every unit.
+
+    Returns
+    -------
+    ndarray of complex, shape (..., n)
+        Longitudinal and lateral velocity as real and imaginary part, m/s.
+    """
+    velocities = np.empty_like(heading)
+    forward, sideways = lead
+    velocities.real[..., 0], velocities.imag[..., 0] = forward, sideways
+    # Never a product of numbers that have both parts: NumPy rounds that otherwise at the end of an array.
+    east, north = heading.real, heading.imag
+    for index, (rear_hitch, front_hitch) in enumerate(hitches):
+        ahead, behind = index, index + 1
+        cosine = east[..., ahead] * east[..., behind] + north[..., ahead] * north[..., behind]
+        sine = north[..., ahead] * east[..., behind] - east[..., ahead] * north[..., behind]
+        at_hitch = sideways + rear_hitch * yaw_rate[..., ahead]
+        forward, sideways = (
+            forward * cosine - at_hitch * sine,
+            forward * sine + at_hitch * cosine - front_hitch * yaw_rate[..., behind],
+        )
+        velocities.real[..., behind], velocities.imag[..., behind] = forward, sideways
+    return velocities

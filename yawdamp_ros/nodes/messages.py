@@ -20,10 +20,12 @@ from yawdamp_ros.stepping.time_grid import SECOND
 
 STANDARD_GRAVITY = 9.80665
 """In m/s^2; an accelerometer at rest shows it upwards (REP-145)."""
+TWISTS = ("rate of the pose", "small angles")
+"""What the twist of an odometry message is: earlier recordings hold that of the linear model."""
 SCALARS = ("yaw", "yaw_rate", "lateral_acceleration")
 _OF_UNITS = (
     *("imu_z", "imu_w", "imu_yaw_rate", "imu_lateral_acceleration"),
-    *("x", "y", "z", "w", "yaw", "yaw_rate", "speed", "lateral_velocity", "lateral_acceleration"),
+    *("x", "y", "z", "w", "yaw", "yaw_rate", "forward", "sideways", "lateral_acceleration"),
 )
 INPUT_TYPES: Mapping[str, type] = MappingProxyType({"steering": Float64, "speed": Float64, "reset": Empty})
 """Messages in which a run holds what acted on the model, by the name of the input and its topic."""
@@ -68,6 +70,8 @@ class OutputMessages:
     noise : Noise, optional
     frame_prefix : str
         Put before the names of frames.
+    twist : str
+        One of `TWISTS`; other than the first only of what was recorded so.
 
     Attributes
     ----------
@@ -82,7 +86,9 @@ class OutputMessages:
         publish_scalars: bool,
         noise: Noise | None = None,
         frame_prefix: str = "",
+        twist: str = TWISTS[0],
     ) -> None:
+        self._small_angles = twist != TWISTS[0]
         self._noise = noise or Noise()
         self._units = units = len(unit_names)
         self._last_steering: tuple[int, float] | None = None
@@ -137,16 +143,23 @@ class OutputMessages:
             "y": table(sample.y),
             "yaw": table(sample.yaw),
             "yaw_rate": yaw_rate,
-            "lateral_velocity": table(sample.lateral_velocity),
+            **self._twist(sample, instants),
             "lateral_acceleration": acceleration,
             "articulation": table(sample.articulation, units - 1),
             "articulation_rate": table(sample.articulation_rate, units - 1),
             "steering_angle": angles[:, np.newaxis],
             "steering_rate": self._steering_rates(angles, stamps)[:, np.newaxis],
-            "speed": np.full((instants, units), sample.speed),
         }
         values = np.concatenate([columns[name] for name in self._columns], axis=1)
         return self._templates.filled(values, stamps)
+
+    def _twist(self, sample: Sample, instants: int) -> dict[str, FloatArray]:
+        """Velocities in the frames of the units."""
+        if self._small_angles:
+            forward: FloatArray = np.full((instants, self._units), sample.speed)
+            return {"forward": forward, "sideways": sample.lateral_velocity.reshape(forward.shape)}
+        velocity = sample.velocity.reshape(instants, self._units)
+        return {"forward": velocity.real, "sideways": velocity.imag}
 
     def _steering_rates(self, angles: FloatArray, stamps: Sequence[int]) -> FloatArray:
         rates = []
@@ -190,8 +203,8 @@ class OutputMessages:
             "pose.pose.position.y": "y",
             "pose.pose.orientation.z": "z",
             "pose.pose.orientation.w": "w",
-            "twist.twist.linear.x": "speed",
-            "twist.twist.linear.y": "lateral_velocity",
+            "twist.twist.linear.x": "forward",
+            "twist.twist.linear.y": "sideways",
             "twist.twist.angular.z": "yaw_rate",
         }
         return self._blank(message, quantities, unit)

@@ -12,6 +12,7 @@ import numpy as np
 from yawdamp_ros.logs import Channel, RunWriter, SerialisedMessage
 from yawdamp_ros.nodes.messages import (
     INPUT_TYPES,
+    TWISTS,
     OutputMessages,
     serialised_input,
     type_name,
@@ -87,6 +88,7 @@ def open_run(  # noqa: PLR0913 - each is one part of what explains a run
         "parameters": json.dumps(
             {name: None if _is_nan(value) else value for name, value in parameters.items()}
         ),
+        "twist": TWISTS[0],
         "version": VERSION,
         "python": platform.python_version(),
         "build": build_of_numerics(),

@@ -14,7 +14,7 @@ from yawdamp_ros.analysis.repetition import TOLERANCE
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.logs import LogError, McapLog, RecordedMessage
 from yawdamp_ros.nodes.deviations import Deviations, Difference, quantity
-from yawdamp_ros.nodes.messages import Noise, OutputMessages
+from yawdamp_ros.nodes.messages import TWISTS, Noise, OutputMessages
 from yawdamp_ros.nodes.recording import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.stepping import AppliedInput, Snapshot, Stepper
 from yawdamp_ros.stepping.build import build_of_numerics
@@ -88,6 +88,7 @@ class Resimulation:
                 parameters.get("noise_seed", 0),
             )
             self._frame_prefix = parameters.get("frame_prefix", "")
+            self._twist = known.get("twist", TWISTS[-1])
             self.recorded_build = known["build"]
             if not (self._step_ns >= SHORTEST_STEP and 1 <= self._steps_per_sample <= MOST_STEPS):
                 message = f"steps of {self._step_ns} ns, {self._steps_per_sample} a sample"
@@ -166,7 +167,11 @@ class Resimulation:
         scalars = any(name.endswith("/yaw") for name in self._outputs)
         names = self._model.vehicle.unit_names
         outputs = OutputMessages(
-            names, publish_scalars=scalars, noise=self._noise, frame_prefix=self._frame_prefix
+            names,
+            publish_scalars=scalars,
+            noise=self._noise,
+            frame_prefix=self._frame_prefix,
+            twist=self._twist,
         )
         stepper = Stepper(self._model, self._step_ns / SECOND)
         stepper.restore(self._initial)

@@ -44,8 +44,12 @@ class Sample(NamedTuple):
         rad and rad/s; yaw is not wrapped.
     heading : ndarray of complex, shape (n,)
         ``cos(yaw) + i sin(yaw)``, exact after any number of turns, which the yaw as one number is not.
+    velocity : ndarray of complex, shape (n,)
+        Of each centre of gravity in its unit's own frame, forward and to the left as real and imaginary part:
+        the rate of the pose, m/s.
     lateral_velocity, lateral_acceleration : ndarray, shape (n,)
-        Of each centre of gravity in its unit's own frame, gravity excluded, m/s and m/s^2.
+        Of the linear model, for small angles: of each centre of gravity in its unit's own frame, gravity
+        excluded, m/s and m/s^2.
     articulation, articulation_rate : ndarray, shape (n - 1,)
         ``psi_k - psi_(k+1)`` and its rate, rad and rad/s.
     inputs : tuple of AppliedInput
@@ -60,6 +64,7 @@ class Sample(NamedTuple):
     yaw: FloatArray
     yaw_rate: FloatArray
     heading: ComplexArray
+    velocity: ComplexArray
     lateral_velocity: FloatArray
     lateral_acceleration: FloatArray
     articulation: FloatArray

@@ -8,7 +8,12 @@ import numpy as np
 import numpy.typing as npt
 
 from yawdamp_ros.dynamics import LinearModel, linear_model
-from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray, coupled_positions
+from yawdamp_ros.dynamics.kinematics import (
+    ComplexArray,
+    FloatArray,
+    coupled_positions,
+    coupled_velocities,
+)
 from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.propagation import Propagation, Propagator, outputs_of, propagator
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
@@ -283,6 +288,8 @@ class Stepper:
             turned[..., joint + 1] = turned[..., joint] - articulation[..., joint]
         heading = _heading(wrapped[..., np.newaxis] + turned)
         positions = coupled_positions(self._vehicle.hitches, motion.position, heading)
+        lead = np.full_like(outputs[..., 0], self.model.speed), outputs[..., 0]
+        velocity = coupled_velocities(self._vehicle.hitches, lead, yaw_rate, heading)
         inputs, self._inputs = tuple(self._inputs), []
         return Sample(
             step=step,
@@ -293,6 +300,7 @@ class Stepper:
             yaw=value[..., np.newaxis] + turned,
             yaw_rate=yaw_rate,
             heading=heading,
+            velocity=velocity,
             lateral_velocity=outputs[..., :count],
             lateral_acceleration=outputs[..., 2 * count : 3 * count],
             articulation=articulation,
