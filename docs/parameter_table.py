@@ -2,17 +2,16 @@
 
 import math
 import sys
-from dataclasses import fields
 from pathlib import Path
 
-from yawdamp_ros.simulation.settings import SimParameters
+from yawdamp_ros.simulation.settings import PARAMETERS, SimParameters
 
 ROOT = Path(__file__).parents[1]
 HEAD = "| parameter | default | |\n|---|---|---|\n"
 FILE_HEAD = """\
 # Parameters of the simulator node, with their defaults:
 #   ros2 run yawdamp_ros sim --ros-args --params-file sim.yaml
-# A number must be written as declared: 100.0, not 100. nan is what was not given.
+# A number must be written as declared: 100.0, not 100. .nan is a number that was not given.
 yawdamp_sim:
   ros__parameters:
 """
@@ -33,8 +32,14 @@ def table() -> str:
 def parameter_file() -> str:
     """Text of config/sim.yaml."""
     lines = []
-    for declared in fields(SimParameters):
-        value = f"    {declared.name}: {_yaml(getattr(SimParameters(), declared.name))}"
+    groups: set[str] = set()
+    for name, declared in PARAMETERS.items():
+        group, _, key = name.rpartition(".")
+        if group and group not in groups:
+            groups.add(group)
+            lines.append(f"    {group}:\n")
+        indent = "      " if group else "    "
+        value = f"{indent}{key}: {_yaml(getattr(SimParameters(), declared.name))}"
         lines.append(f"{value:<42}# {declared.metadata['description']}\n")
     return FILE_HEAD + "".join(lines)
 
@@ -49,14 +54,14 @@ def main() -> int:
 
 def _rows() -> str:
     rows = []
-    for declared in fields(SimParameters):
+    for name, declared in PARAMETERS.items():
         default = _yaml(getattr(SimParameters(), declared.name))
         described = declared.metadata["description"]
         if declared.metadata["choices"]:
             described += f" ({', '.join(declared.metadata['choices'])})"
         if declared.metadata["dynamic"]:
             described += "; *while running*"
-        rows.append(f"| `{declared.name}` | {default} | {described} |")
+        rows.append(f"| `{name}` | {default} | {described} |")
     return "\n".join(rows)
 
 

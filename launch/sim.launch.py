@@ -24,7 +24,7 @@ def generate_launch_description() -> LaunchDescription:
                 parameters=[
                     {
                         "vehicle": LaunchConfiguration("vehicle"),
-                        "manoeuvre": LaunchConfiguration("manoeuvre"),
+                        "manoeuvre.name": LaunchConfiguration("manoeuvre"),
                         "record": ParameterValue(LaunchConfiguration("record"), value_type=bool),
                         "publish_markers": ParameterValue(LaunchConfiguration("rviz"), value_type=bool),
                     }

@@ -226,6 +226,11 @@ def values(status: Any) -> dict[str, str]:  # noqa: ANN401 - a generated message
     return {value.key: value.value for value in status.values}
 
 
+def state(status: Any, key: str = "state") -> str:  # noqa: ANN401 - a generated message
+    """State of a diagnostic status, or another of its keys; empty before the first."""
+    return values(status).get(key, "")
+
+
 def stamps(messages: Sequence[Any]) -> list[int]:
     """Stamps of messages in ns."""
     return [message.header.stamp.sec * 10**9 + message.header.stamp.nanosec for message in messages]

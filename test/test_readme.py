@@ -2,8 +2,8 @@
 
 import math
 import re
-from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.cli.dispatch import COMMANDS
 from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.share import share_directory
-from yawdamp_ros.simulation.settings import SimParameters
+from yawdamp_ros.simulation.settings import PARAMETERS, SimParameters
 from yawdamp_ros.vehicle import builtin_vehicles, parse_vehicle
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -25,11 +25,19 @@ def test_the_table_of_parameters_is_that_of_the_declarations() -> None:
     assert README.count(parameter_table.HEAD) == 1
 
 
+def flat(parameters: dict[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Parameters as the node names them, groups joined by dots."""
+    found: dict[str, Any] = {}
+    for name, value in parameters.items():
+        found |= flat(value, f"{prefix}{name}.") if isinstance(value, dict) else {prefix + name: value}
+    return found
+
+
 def test_the_parameter_file_is_that_of_the_declarations() -> None:
     text = (share_directory() / "config" / "sim.yaml").read_text(encoding="utf-8")
     assert text == parameter_table.parameter_file()
-    given = YAML(typ="safe", pure=True).load(text)["yawdamp_sim"]["ros__parameters"]
-    defaults = asdict(SimParameters())
+    given = flat(YAML(typ="safe", pure=True).load(text)["yawdamp_sim"]["ros__parameters"])
+    defaults = {name: getattr(SimParameters(), declared.name) for name, declared in PARAMETERS.items()}
     assert list(given) == list(defaults)
     for name, default in defaults.items():
         both_nan = isinstance(default, float) and math.isnan(default) and math.isnan(given[name])

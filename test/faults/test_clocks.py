@@ -95,7 +95,7 @@ def test_jumps_of_the_system_clock_move_neither_time_nor_rate(graph: Graph) -> N
         return bool(graph.messages("/joint_states")[-1].position[0] == angle)
 
     def refused() -> int:
-        return int(values(statuses("steering"))["refused,_its_stamp_is_not_of_now"])
+        return int(values(statuses("steering"))["rejected_stale"])
 
     for index, hours in enumerate((1, -1), 1):
         clock.jump(hours)
@@ -122,23 +122,23 @@ def test_jumps_back_of_the_system_clock_hold_nothing_up_and_silence_nothing(grap
 
     def refuse(count: int) -> None:
         publisher.publish(Float64(data=math.nan))
-        until(lambda: values(statuses("steering"))["speed_refused"] == str(count), "the refusal")
+        until(lambda: values(statuses("steering"))["speed_rejected_not_finite"] == str(count), "the refusal")
 
     refuse(1)
     for hours in range(1, 11):
         clock.jump(-hours)
         more_samples(graph, 20)
     # Without care, a wait by that clock would last until something else happens, seconds or an hour.
-    assert int(values(statuses("timing"))["steps_given_up"]) < 1000
+    assert int(values(statuses("timing"))["steps_dropped"]) < 1000
     more_samples(graph, 400)  # warnings of one kind are 5 s apart
     refuse(2)
-    assert "speed: nan: refused or clamped, 2 refused" in ended(graph, process)
+    assert "speed: nan: rejected, not a finite number, 2 so far" in ended(graph, process)
 
 
 def test_use_sim_time_without_a_clock_is_warned_of_and_changes_nothing(graph: Graph) -> None:
     process = started(graph, "use_sim_time:=true")
     statuses = graph.statuses()
-    until(lambda: statuses("timing").message == "in time", "diagnostics")
+    until(lambda: values(statuses("timing"))["state"] == "in_time", "diagnostics")
     assert values(statuses("timing"))["wanted_rate"] == "100.00 Hz"
     assert graph.call("/yawdamp_sim/reset", Trigger, Trigger.Request()).success
     graph.steering_publisher().publish(Float64(data=0.1))

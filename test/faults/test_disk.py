@@ -72,13 +72,13 @@ def test_what_a_full_disk_loses_is_counted_and_a_recording_begins_anew(graph: Gr
     first = run_directory(graph.directory)
     no_more = (100_000, resource.RLIM_INFINITY)  # lets a file grow no more, as a full disk does
     resource.prlimit(process.pid, resource.RLIMIT_FSIZE, no_more)
-    until(lambda: statuses("recorder").message.startswith("failed: "), "the failure")
+    until(lambda: values(statuses("recorder"))["state"] == "failed", "the failure")
     assert statuses("recorder").level == b"\2"
     more_samples(graph, 30)
     resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
     answer = record(graph, wanted=True)
     assert answer.success
-    assert answer.message.startswith("recording to runs/")
+    assert answer.message.startswith("recording: runs/")
     until(lambda: statuses("recorder").level == b"\0", "good order again")
     more_samples(graph, 30)
     lost = int(values(statuses("recorder"))["messages_lost"])
@@ -86,7 +86,7 @@ def test_what_a_full_disk_loses_is_counted_and_a_recording_begins_anew(graph: Gr
     assert status == 1
     assert "messages not recorded, the simulation goes on" in errors
     assert "Traceback" not in errors
-    second = graph.directory / answer.message.removeprefix("recording to ")
+    second = graph.directory / answer.message.removeprefix("recording: ")
     assert run(["resimulate", str(second)]) == 0
     before, after = kept(first), kept(second)
     published = (after[0] - before[0]) // PERIOD
@@ -102,7 +102,7 @@ def test_a_disk_that_fills_midway_leaves_what_fitted(graph: Graph, small_disk: P
     until(lambda: "No space left on device" in statuses("recorder").message, "the failure")
     assert statuses("recorder").level == b"\2"
     assert graph.set_parameter("/yawdamp_sim", "record_directory", "rescue").successful
-    assert record(graph, wanted=True).message == "recording to rescue"
+    assert record(graph, wanted=True).message == "recording: rescue"
     more_samples(graph, 30)
     assert stop(process)[0] == 1
     assert np.diff(kept(small_disk / "run")).tolist() == [PERIOD] * (len(kept(small_disk / "run")) - 1)
@@ -187,10 +187,10 @@ def test_a_peer_can_have_runs_recorded_below_the_working_directory_only(tmp_path
         assert "expected one below the working directory" in answer.reason
     # What was given at the start stays in force, and other parameters can be set beside it.
     assert graph.set_parameter("/yawdamp_sim", "max_steering_angle", 0.5).successful
-    assert record(graph, wanted=True).message == f"recording to {tmp_path / 'given_2'}"
+    assert record(graph, wanted=True).message == f"recording: {tmp_path / 'given_2'}"
     assert graph.set_parameter("/yawdamp_sim", "record_directory", "a/run").successful
     for name in ("a/run", "a/run_2"):
-        assert record(graph, wanted=True).message == f"recording to {name}"
+        assert record(graph, wanted=True).message == f"recording: {name}"
     assert stop(process)[0] == 0
     graph.close()
     new = {path.relative_to(tmp_path) for path in set(tmp_path.rglob("*")) - set(before) if path.is_dir()}

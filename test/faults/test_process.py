@@ -88,7 +88,7 @@ def test_three_seconds_of_standstill_are_given_up_and_counted_and_not_made_up_fo
     process.send_signal(signal.SIGCONT)
 
     def given_up() -> int:
-        return int(values(statuses("timing"))["steps_given_up"])
+        return int(values(statuses("timing"))["steps_dropped"])
 
     # All but the 0.1 s that are made up for, and the sample that was under way.
     until(lambda: given_up() >= 2890, "the count of steps")

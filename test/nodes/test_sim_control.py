@@ -91,7 +91,7 @@ def test_a_recording_can_be_stopped_and_started_and_each_part_repeats(graph: Gra
         before = len(graph.received["/truck/imu"])
         until(lambda before=before: len(graph.received["/truck/imu"]) > before + 120, "a second of samples")
         answer = graph.call("/yawdamp_sim/record", SetBool, SetBool.Request(data=False))
-        assert (answer.success, answer.message) == (True, "idle")
+        assert (answer.success, answer.message) == (True, "idle: not recording")
     assert stop(process)[0] == 0
     runs = sorted((graph.directory / "runs").iterdir())
     assert len(runs) == 2

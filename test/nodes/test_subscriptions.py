@@ -24,5 +24,5 @@ def test_commands_that_have_arrived_act_before_the_executor_comes_to_them(graph:
         return target.at(7) == 0.2
 
     until(newest_acts, "the commands")
-    assert target.counts[Verdict.TAKEN] == 2
+    assert target.counts[Verdict.ACCEPTED] == 2
     unspun.destroy_node()

@@ -160,7 +160,7 @@ def test_a_minute_in_bad_company_keeps_the_rate_or_counts_the_loss(graph: Graph,
     at = [look.header.stamp.sec + look.header.stamp.nanosec / 1e9 for look in looks]
     found = [values(look.status[0]) for look in looks]
     time_passed = [float(one["simulated_time"].removesuffix(" s")) for one in found]
-    given_up = [int(one["steps_given_up"]) for one in found]
+    given_up = [int(one["steps_dropped"]) for one in found]
     behind = [
         (at[index] - at[0]) - (time_passed[index] - time_passed[0]) - 0.001 * (given_up[index] - given_up[0])
         for index in range(len(looks))

@@ -122,7 +122,7 @@ def test_time_keeps_up_for_a_minute_on_busy_cores_or_says_what_it_lost(graph: Gr
         values = {value.key: value.value for value in array.status[0].values}
         stamp = array.header.stamp.sec + array.header.stamp.nanosec / 1e9
         simulated = float(values["simulated_time"].removesuffix(" s"))
-        looks.append((stamp, simulated, int(values["steps_given_up"])))
+        looks.append((stamp, simulated, int(values["steps_dropped"])))
 
     graph.node.create_subscription(DiagnosticArray, "/diagnostics", look, 10)
     try:

@@ -47,7 +47,7 @@ def test_an_angle_past_the_limit_is_clamped_and_counted(sign: float) -> None:
     source = steering_input(ratio=2.0)
     assert source.offer(sign * 1e308, 0) is Verdict.CLAMPED
     assert source.at(1) == sign * 0.5
-    assert source.offer(sign * 1.0, 1) is Verdict.TAKEN
+    assert source.offer(sign * 1.0, 1) is Verdict.ACCEPTED
     assert source.at(2) == sign * 0.5
     assert source.counts[Verdict.CLAMPED] == 1
 
@@ -77,8 +77,8 @@ def test_a_stamp_that_is_not_of_now_is_refused_and_counted(age: float) -> None:
 
 
 def test_stamps_do_not_count_where_there_are_none_or_any_age_will_do() -> None:
-    assert steering_input(max_age=0.5).offer(0.1, 0) is Verdict.TAKEN
-    assert steering_input(max_age=0.0).offer(0.1, 0, age=3600.0) is Verdict.TAKEN
+    assert steering_input(max_age=0.5).offer(0.1, 0) is Verdict.ACCEPTED
+    assert steering_input(max_age=0.0).offer(0.1, 0, age=3600.0) is Verdict.ACCEPTED
 
 
 def test_silence_is_the_steps_since_the_last_command() -> None:

@@ -131,12 +131,12 @@ def _overrides(options: "argparse.Namespace") -> dict[str, Any]:
         "vehicle_overrides": options.set or None,
         "model": options.model,
         "speed": options.speed,
-        "manoeuvre": options.manoeuvre,
+        "manoeuvre.name": options.manoeuvre,
         "duration": options.duration,
         "step_size": options.step_size,
         "publish_rate": options.publish_rate,
         "record_directory": options.output,
         "record": False if options.no_record else None,
-        **manoeuvre_settings(options),
+        **{f"manoeuvre.{name}": value for name, value in manoeuvre_settings(options).items()},
     }
     return {name: value for name, value in given.items() if value is not None}

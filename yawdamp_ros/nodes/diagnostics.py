@@ -1,17 +1,27 @@
 """What the simulator says of itself, once a second."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from yawdamp_ros.nodes.neighbours import Neighbourhood
+from yawdamp_ros.nodes.states import (
+    RECORDER_SENTENCES,
+    VERDICT_SENTENCES,
+    ModelState,
+    RecorderState,
+    SteeringState,
+    TimingState,
+)
+from yawdamp_ros.stepping import Verdict
 from yawdamp_ros.stepping.time_grid import SECOND
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 
 
 class Readings(NamedTuple):
-    """What is true of the simulator at one look; counts are since its start.
+    """State of the simulator at one look; counts are since its start.
 
     Attributes
     ----------
@@ -20,22 +30,25 @@ class Readings(NamedTuple):
     rate_wanted : float
         Samples a second of real time; 0 where there is no such rate.
     worst_lateness : float
-        Since the last look, s.
-    steps_given_up : int
+        Since the last look [s].
+    steps_dropped : int
     simulated_time : float
         In s.
     paused : bool
-    steering_silence : float or None
-        In s of simulated time; None before the first command.
+    steering_age : float or None
+        Simulated time since the last command [s]; None before the first.
     steering_timed_out : bool
-    steering_source : str
-        ``topic`` or the name of the manoeuvre.
-    refused : dict of str to int
-        Commands and speeds that were refused or clamped, by reason.
+    manoeuvre : str
+        Name of the manoeuvre that steers; empty where the topic does.
+    commands : mapping of Verdict to int
+        Steering commands by verdict.
+    speeds : mapping of Verdict to int
+        Speeds of the topic by verdict.
     neighbourhood : Neighbourhood
         Who publishes on the inputs.
-    recorder : str
-        ``recording``, ``idle`` or ``failed: ...``.
+    recorder : RecorderState
+    recorder_detail : str
+        Directory that is recorded to, or why it is not recorded.
     messages_lost : int
         By the recorder.
     least_damping_ratio : float
@@ -46,15 +59,17 @@ class Readings(NamedTuple):
     samples: int
     rate_wanted: float
     worst_lateness: float
-    steps_given_up: int
+    steps_dropped: int
     simulated_time: float
     paused: bool
-    steering_silence: float | None
+    steering_age: float | None
     steering_timed_out: bool
-    steering_source: str
-    refused: dict[str, int]
+    manoeuvre: str
+    commands: Mapping[Verdict, int]
+    speeds: Mapping[Verdict, int]
     neighbourhood: Neighbourhood
-    recorder: str
+    recorder: RecorderState
+    recorder_detail: str
     messages_lost: int
     least_damping_ratio: float
     speed: float
@@ -62,6 +77,8 @@ class Readings(NamedTuple):
 
 class Diagnosis:
     """Turns readings into diagnostics: counts that grew since the last look are what warns.
+
+    Each status holds the key of its ``state``; the sentence in ``message`` is made from it last.
 
     Parameters
     ----------
@@ -81,11 +98,17 @@ class Diagnosis:
         ----------
         readings : Readings
         elapsed : float
-            Time since the last look in s.
+            Time since the last look [s].
         stamp : int
             In ns.
+
+        Returns
+        -------
+        DiagnosticArray
         """
-        before = self._before or readings._replace(samples=0, refused={}, messages_lost=0, steps_given_up=0)
+        before = self._before or readings._replace(
+            samples=0, commands={}, speeds={}, messages_lost=0, steps_dropped=0
+        )
         self._before = readings
         array = DiagnosticArray()
         array.header.stamp.sec, array.header.stamp.nanosec = divmod(stamp, SECOND)
@@ -99,49 +122,52 @@ class Diagnosis:
 
     def _timing(self, now: Readings, before: Readings, elapsed: float) -> DiagnosticStatus:
         achieved = (now.samples - before.samples) / elapsed if elapsed else 0.0
-        given_up = now.steps_given_up - before.steps_given_up
-        level, message = OK, "paused" if now.paused else "in time"
-        if given_up:
-            level, message = WARN, f"{given_up} steps given up since the last look"
+        dropped = now.steps_dropped - before.steps_dropped
+        state = TimingState.PAUSED if now.paused else TimingState.IN_TIME
+        message = "paused" if now.paused else "in time"
+        if dropped:
+            state, message = TimingState.STEPS_DROPPED, f"{dropped} steps dropped since the last look"
         wanted = f"{now.rate_wanted:.2f} Hz" if now.rate_wanted else "as fast as it goes"
         return self._status(
             "timing",
-            level,
+            WARN if dropped else OK,
             message,
+            state=state,
             achieved_rate=f"{achieved:.2f} Hz",
             wanted_rate="paused" if now.paused else wanted,
             worst_lateness=f"{1e3 * now.worst_lateness:.3f} ms",
-            steps_given_up=str(now.steps_given_up),
+            steps_dropped=str(now.steps_dropped),
             simulated_time=f"{now.simulated_time:.9g} s",
         )
 
     def _steering(self, now: Readings, before: Readings) -> DiagnosticStatus:
-        grown = [reason for reason, count in now.refused.items() if count > before.refused.get(reason, 0)]
-        troubles = list(now.neighbourhood.problems)
-        message = f"steered by {now.steering_source}"
-        if grown:
-            troubles.append(f"since the last look: {', '.join(grown)}")
-        elif now.steering_timed_out:
-            troubles.append("no command for longer than steering_timeout")
-        elif now.steering_source == "topic" and now.steering_silence is None:
-            message = "no command yet"
-        age = "none yet" if now.steering_silence is None else f"{now.steering_silence:.3f} s"
+        commands, speeds = _grown(now.commands, before.commands), _grown(now.speeds, before.speeds)
+        found = now.neighbourhood.findings
+        state, message, troubles = _steered(now)
+        grown = [f"steering {VERDICT_SENTENCES[verdict]}" for verdict in commands]
+        grown += [f"speed {VERDICT_SENTENCES[verdict]}" for verdict in speeds]
+        troubles += [finding.sentence for finding in found]
+        troubles += [f"since the last look: {'; '.join(grown)}"] if grown else []
+        problems = [*(finding.problem for finding in found), *commands, *(f"speed_{key}" for key in speeds)]
+        age = "none yet" if now.steering_age is None else f"{now.steering_age:.3f} s"
         return self._status(
             "steering",
             WARN if troubles else OK,
             "; ".join(troubles) or message,
+            state=state,
+            problems=",".join(dict.fromkeys(problems)),
             age=age,
             publishers=str(now.neighbourhood.publishers),
-            **{reason.replace(" ", "_"): str(count) for reason, count in now.refused.items()},
+            **{verdict: str(count) for verdict, count in now.commands.items()},
+            **{f"speed_{verdict}": str(count) for verdict, count in now.speeds.items()},
         )
 
     def _recorder(self, now: Readings, before: Readings) -> DiagnosticStatus:
-        level, message = OK, now.recorder
-        if now.recorder.startswith("failed"):
-            level = ERROR
-        elif now.messages_lost > before.messages_lost:
-            level, message = ERROR, "the disk does not keep up"
-        return self._status("recorder", level, message, messages_lost=str(now.messages_lost))
+        state, message = now.recorder, RECORDER_SENTENCES[now.recorder].format(now.recorder_detail)
+        if state is not RecorderState.FAILED and now.messages_lost > before.messages_lost:
+            state, message = RecorderState.DROPPING, RECORDER_SENTENCES[RecorderState.DROPPING]
+        level = ERROR if state in {RecorderState.FAILED, RecorderState.DROPPING} else OK
+        return self._status("recorder", level, message, state=state, messages_lost=str(now.messages_lost))
 
     def _model(self, now: Readings) -> DiagnosticStatus:
         stable = now.least_damping_ratio > 0.0
@@ -149,6 +175,7 @@ class Diagnosis:
             "model",
             OK if stable else WARN,
             "stable" if stable else "unstable: a mode grows",
+            state=ModelState.STABLE if stable else ModelState.UNSTABLE,
             least_damping_ratio=f"{now.least_damping_ratio:.4f}",
             speed=f"{now.speed:.6g} m/s",
         )
@@ -159,5 +186,25 @@ class Diagnosis:
             name=f"{self._node_name}: {part}",
             message=message,
             hardware_id=self._vehicle_name,
-            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
         )
+
+
+def _grown(now: Mapping[Verdict, int], before: Mapping[Verdict, int]) -> list[Verdict]:
+    """Verdicts, other than acceptance, of which there are more than before."""
+    return [
+        verdict
+        for verdict, count in now.items()
+        if verdict is not Verdict.ACCEPTED and count > before.get(verdict, 0)
+    ]
+
+
+def _steered(now: Readings) -> tuple[SteeringState, str, list[str]]:
+    """State of the steering, its sentence where nothing is wrong, and what is wrong with it."""
+    if now.manoeuvre:
+        return SteeringState.MANOEUVRE, f"steered by the manoeuvre {now.manoeuvre}", []
+    if now.steering_age is None:
+        return SteeringState.NO_COMMAND, "no command yet", []
+    if now.steering_timed_out:
+        return SteeringState.TIMED_OUT, "", ["no command for longer than steering_timeout"]
+    return SteeringState.COMMANDED, "steered by the topic", []

@@ -72,9 +72,12 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
 
 
 def join(name: str, overrides: Mapping[str, Any]) -> Node:
-    """Put a node on the graph, with parameters that win over those of the command line's ``--ros-args``."""
+    """Put a node on the graph, with parameters that win over those of the command line's ``--ros-args``.
+
+    What was given is declared, so that `declare_parameters` can see what nobody else declares.
+    """
     parameters = [Parameter(parameter, value=value) for parameter, value in overrides.items()]
-    return Node(name, parameter_overrides=parameters)
+    return Node(name, parameter_overrides=parameters, automatically_declare_parameters_from_overrides=True)
 
 
 def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: Callable[[], None]) -> bool:

@@ -3,17 +3,33 @@
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from rclpy.node import Node
-from rclpy.qos import QoSCompatibility, qos_check_compatible
+from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from yawdamp_ros.nodes.messages import type_name
+from yawdamp_ros.nodes.states import Problem
 
 CUT_OFF = (
     "the shared memory of Fast DDS was removed: who comes from now on can neither steer nor hear this node; "
     "start it again"
 )
+
+
+class Finding(NamedTuple):
+    """Something that does not fit.
+
+    Attributes
+    ----------
+    problem : Problem
+    sentence : str
+        With the topic and who is on it.
+    """
+
+    problem: Problem
+    sentence: str
 
 
 class Neighbourhood(NamedTuple):
@@ -23,12 +39,12 @@ class Neighbourhood(NamedTuple):
     ----------
     publishers : int
         On the inputs, heard or not.
-    problems : tuple of str
-        With the inputs.
+    findings : tuple of Finding
+        On the inputs.
     """
 
     publishers: int
-    problems: tuple[str, ...]
+    findings: tuple[Finding, ...]
 
 
 class Neighbours:
@@ -50,30 +66,96 @@ class Neighbours:
         self._node = node
         self._outputs = tuple(outputs)
         self._inputs = {node.resolve_topic_name(name) for name in inputs}
-        self._known: tuple[str, ...] = ()
+        self._known: tuple[Finding, ...] = ()
 
     def look(self) -> Neighbourhood:
         """Look around, and warn of what is new."""
         publishers = 0
-        problems = [CUT_OFF] if _is_cut_off() else []
+        findings = [Finding(Problem.SHARED_MEMORY_REMOVED, CUT_OFF)] if _is_cut_off() else []
         for subscription in self._node.subscriptions:
             if subscription.topic_name in self._inputs:
                 found = self._node.get_publishers_info_by_topic(subscription.topic_name)
                 publishers += len(found)
-                problems += _problems(subscription, found)
+                findings += heard(
+                    subscription.topic_name, type_name(subscription.msg_type), subscription.qos_profile, found
+                )
+        name = self._node.get_fully_qualified_name()
         unheard = [
-            f"{topic}: {_name(listener)} hears nothing: {mismatch}"
+            finding
             for topic in self._outputs
             for publisher in self._node.get_publishers_info_by_topic(topic)
-            if _name(publisher) == self._node.get_fully_qualified_name()
-            for listener in self._node.get_subscriptions_info_by_topic(topic)
-            if (mismatch := _mismatch(publisher.topic_type, listener, publisher, listener))
+            if endpoint_name(publisher) == name
+            for finding in listening(topic, publisher, self._node.get_subscriptions_info_by_topic(topic))
         ]
-        for problem in (*problems, *unheard):
-            if problem not in self._known:
-                self._node.get_logger().warning(problem)
-        self._known = (*problems, *unheard)
-        return Neighbourhood(publishers, tuple(problems))
+        for finding in (*findings, *unheard):
+            if finding not in self._known:
+                self._node.get_logger().warning(finding.sentence)
+        self._known = (*findings, *unheard)
+        return Neighbourhood(publishers, tuple(findings))
+
+
+def heard(
+    topic: str, expected: str, qos: QoSProfile, publishers: Sequence[TopicEndpointInfo]
+) -> list[Finding]:
+    """Findings on the publishers of an input.
+
+    Parameters
+    ----------
+    topic : str
+    expected : str
+        Message type of the node's subscription.
+    qos : QoSProfile
+        Of the node's subscription.
+    publishers : sequence of TopicEndpointInfo
+
+    Returns
+    -------
+    list of Finding
+    """
+    findings, names = [], []
+    for publisher in publishers:
+        if mismatch := _mismatch(expected, publisher.topic_type, publisher.qos_profile, qos):
+            problem, reason = mismatch
+            findings.append(Finding(problem, f"{topic}: {endpoint_name(publisher)} is not heard: {reason}"))
+        else:
+            names.append(endpoint_name(publisher))
+    if len(names) > 1:
+        listed = ", ".join(sorted(names))
+        sentence = f"{topic}: {len(names)} publish at once: {listed}; the newest wins"
+        findings.append(Finding(Problem.SEVERAL_PUBLISHERS, sentence))
+    return findings
+
+
+def listening(
+    topic: str, publisher: TopicEndpointInfo, listeners: Sequence[TopicEndpointInfo]
+) -> list[Finding]:
+    """Findings on the subscribers of an output.
+
+    Parameters
+    ----------
+    topic : str
+    publisher : TopicEndpointInfo
+        The node's own.
+    listeners : sequence of TopicEndpointInfo
+
+    Returns
+    -------
+    list of Finding
+    """
+    findings = []
+    for listener in listeners:
+        mismatch = _mismatch(
+            publisher.topic_type, listener.topic_type, publisher.qos_profile, listener.qos_profile
+        )
+        if mismatch:
+            problem, reason = mismatch
+            findings.append(Finding(problem, f"{topic}: {endpoint_name(listener)} hears nothing: {reason}"))
+    return findings
+
+
+def endpoint_name(endpoint: TopicEndpointInfo) -> str:
+    """Fully qualified name of the node that an endpoint belongs to."""
+    return f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}"
 
 
 def _is_cut_off() -> bool:
@@ -86,29 +168,14 @@ def _is_cut_off() -> bool:
     return False
 
 
-def _problems(subscription: Any, publishers: list[Any]) -> list[str]:  # noqa: ANN401 - rclpy's are untyped
-    problems = []
-    heard = []
-    for publisher in publishers:
-        if mismatch := _mismatch(type_name(subscription.msg_type), publisher, publisher, subscription):
-            problems.append(f"{subscription.topic_name}: {_name(publisher)} is not heard: {mismatch}")
-        else:
-            heard.append(_name(publisher))
-    if len(heard) > 1:
-        names = ", ".join(sorted(heard))
-        problems.append(f"{subscription.topic_name}: {len(heard)} publish at once: {names}; the newest wins")
-    return problems
-
-
-def _mismatch(expected: str, other: Any, publisher: Any, subscription: Any) -> str:  # noqa: ANN401
-    """Why one's own end of a topic of a type does not meet another; empty if it does."""
-    if other.topic_type != expected:
-        return f"its type is {other.topic_type}, expected {expected}"
-    compatibility, reason = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
+def _mismatch(
+    expected: str, found: str, publisher: QoSProfile, subscription: QoSProfile
+) -> tuple[Problem, str] | None:
+    """Reason why two ends of a topic do not meet; None if they do."""
+    if found != expected:
+        return Problem.TYPE_MISMATCH, f"its type is {found}, expected {expected}"
+    compatibility, reason = qos_check_compatible(publisher, subscription)
     if compatibility == QoSCompatibility.ERROR:
-        return f"its QoS does not fit: {reason.removeprefix('ERROR: ').rstrip(';')}"
-    return ""
-
-
-def _name(publisher: Any) -> str:  # noqa: ANN401
-    return f"{publisher.node_namespace.rstrip('/')}/{publisher.node_name}"
+        reason = reason.removeprefix("ERROR: ").rstrip(";")
+        return Problem.QOS_MISMATCH, f"its QoS does not fit: {reason}"
+    return None

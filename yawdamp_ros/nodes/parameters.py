@@ -1,8 +1,8 @@
-"""Parameters of the simulator node, as `SimParameters` declares them."""
+"""Declaring, checking and changing the parameters of the simulator node."""
 
 import difflib
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, fields, replace
+from dataclasses import Field, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from yawdamp_ros.nodes.errors import NodeError
-from yawdamp_ros.simulation.settings import SimParameters
+from yawdamp_ros.simulation.settings import FORMER_NAMES, PARAMETERS, SimParameters
 
 _TYPE_NAMES = {
     bool: "true or false",
@@ -26,27 +26,29 @@ _OF_RCLPY = ("use_sim_time", "qos_overrides.", "start_type_description_service")
 def declare_parameters(node: Node) -> SimParameters:
     """Declare every parameter on a node and read what it was given.
 
+    Parameters
+    ----------
+    node : Node
+        Made with ``automatically_declare_parameters_from_overrides``: a parameter that was given and that
+        nobody declares must not be ignored.
+
+    Returns
+    -------
+    SimParameters
+
     Raises
     ------
     NodeError
         If a value has the wrong type or is out of range, or there is no such parameter.
     """
-    defaults = asdict(SimParameters())
-    # rclpy has no public way to see overrides of parameters that nobody declared, and a misspelt one
-    # must not be ignored.
-    overrides = node._parameter_overrides  # noqa: SLF001
-    described = {declared.name: declared.metadata for declared in fields(SimParameters)}
-    for name, override in overrides.items():
-        if name in described:
-            _check(name, override.value, defaults[name], described[name])
-        elif not (node.has_parameter(name) or name.startswith(_OF_RCLPY)):
-            close = difflib.get_close_matches(name, described, n=1)
-            hint = f"; did you mean {close[0]}?" if close else ""
-            message = f"parameter {name}: no such parameter{hint}"
-            raise NodeError(message)
+    given = _given(node)
+    for name, value in given.items():
+        _check(name, value)
     values = {}
-    for name, default in defaults.items():
-        values[name] = node.declare_parameter(name, default, _descriptor(described[name])).value
+    for name, declared in PARAMETERS.items():
+        value = given.get(name, getattr(SimParameters(), declared.name))
+        descriptor = parameter_descriptor(declared)
+        values[declared.name] = node.declare_parameter(name, value, descriptor).value
     settings = SimParameters(**values)
     if problem := settings.problem():
         message = f"parameter {problem}"
@@ -57,27 +59,90 @@ def declare_parameters(node: Node) -> SimParameters:
 def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimParameters:
     """Settings with some parameters changed together, as a running node is asked for.
 
+    Parameters
+    ----------
+    settings : SimParameters
+    parameters : iterable of Parameter
+        Those of other names are left to rclpy.
+
+    Returns
+    -------
+    SimParameters
+
     Raises
     ------
     NodeError
         If one of them, or all of them together, cannot be; then none of them counts.
     """
-    described = {declared.name: declared.metadata for declared in fields(SimParameters)}
-    wanted = {parameter.name: parameter.value for parameter in parameters if parameter.name in described}
+    wanted = {parameter.name: parameter.value for parameter in parameters if parameter.name in PARAMETERS}
     for name, value in wanted.items():
-        _check(name, value, getattr(settings, name), described[name])
+        _check(name, value)
     directory = wanted.get("record_directory", settings.record_directory)
     if directory != settings.record_directory and not _is_confined(directory):
         message = f"parameter record_directory: {directory!r}: expected one below the working directory"
         raise NodeError(message)
-    new = replace(settings, **wanted)
+    new = replace(settings, **{PARAMETERS[name].name: value for name, value in wanted.items()})
     if problem := new.problem():
         message = f"parameter {problem}"
         raise NodeError(message)
     return new
 
 
-def _check(name: str, value: Any, default: Any, described: Mapping[str, Any]) -> None:  # noqa: ANN401
+def parameter_descriptor(declared: Field[Any]) -> ParameterDescriptor:
+    """Descriptor with the range, the choices and whether it is read-only, as `ros2 param describe` shows it.
+
+    Parameters
+    ----------
+    declared : Field
+        One of `PARAMETERS`.
+
+    Returns
+    -------
+    ParameterDescriptor
+    """
+    described = declared.metadata
+    descriptor = ParameterDescriptor(
+        description=described["description"],
+        additional_constraints=described["constraint"],
+        read_only=not described["dynamic"],
+    )
+    if described["limits"]:
+        low, high = described["limits"]
+        if isinstance(low, int):
+            descriptor.integer_range = [IntegerRange(from_value=low, to_value=high, step=1)]
+        else:
+            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    if described["choices"]:
+        descriptor.additional_constraints = f"one of {', '.join(described['choices'])}"
+    return descriptor
+
+
+def _given(node: Node) -> dict[str, Any]:
+    """Values that were given, by today's names; none of them is declared any more."""
+    given = {}
+    for name, parameter in node.get_parameters_by_prefix("").items():
+        if name.startswith(_OF_RCLPY):
+            continue
+        new = FORMER_NAMES.get(name, name)
+        if new not in PARAMETERS:
+            close = difflib.get_close_matches(name, PARAMETERS, n=1)
+            hint = f"; did you mean {close[0]}?" if close else ""
+            message = f"parameter {name}: no such parameter{hint}"
+            raise NodeError(message)
+        node.undeclare_parameter(name)
+        if new in given:
+            message = f"parameter {name}: {new} is given as well; expected one of the two"
+            raise NodeError(message)
+        if new != name:
+            node.get_logger().warning(f"parameter {name}: renamed to {new}; this release accepts both")
+        given[new] = parameter.value
+    return given
+
+
+def _check(name: str, value: Any) -> None:  # noqa: ANN401 - of any type that a parameter has
+    declared = PARAMETERS[name]
+    described: Mapping[str, Any] = declared.metadata
+    default = getattr(SimParameters(), declared.name)
     problem = ""
     if type(value) is not type(default):
         wanted = _TYPE_NAMES[type(default)]
@@ -102,16 +167,3 @@ def _is_confined(directory: str) -> bool:
         return path.resolve().is_relative_to(Path.cwd().resolve())
     except (OSError, RuntimeError):  # a loop of symlinks, or no working directory any more
         return False
-
-
-def _descriptor(described: Mapping[str, Any]) -> ParameterDescriptor:
-    descriptor = ParameterDescriptor(description=described["description"], read_only=not described["dynamic"])
-    if described["limits"]:
-        low, high = described["limits"]
-        if isinstance(low, int):
-            descriptor.integer_range = [IntegerRange(from_value=low, to_value=high, step=1)]
-        else:
-            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
-    if described["choices"]:
-        descriptor.additional_constraints = f"one of {', '.join(described['choices'])}"
-    return descriptor

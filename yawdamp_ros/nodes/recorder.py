@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from yawdamp_ros.logs import BackgroundWriter, LogError, RunWriter, SerialisedMessage
+from yawdamp_ros.nodes.states import RecorderState
 
 
 class Recorder:
@@ -38,11 +39,18 @@ class Recorder:
         return self._lost_before + (self._writer.lost if self._writer is not None else 0)
 
     @property
-    def state(self) -> str:
-        """What diagnostics say of it."""
+    def state(self) -> RecorderState:
+        """Key of what it does."""
         if self.failure is not None:
-            return f"failed: {self.failure}"
-        return f"recording to {self.directory}" if self.recording else "idle"
+            return RecorderState.FAILED
+        return RecorderState.RECORDING if self.recording else RecorderState.IDLE
+
+    @property
+    def detail(self) -> str:
+        """Directory that is recorded to, or why it is not recorded."""
+        if self.failure is not None:
+            return str(self.failure)
+        return str(self.directory) if self.recording else "not recording"
 
     def start(self, directory: Path) -> None:
         """Start a run, and finish the one before it.

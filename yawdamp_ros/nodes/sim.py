@@ -27,6 +27,7 @@ from yawdamp_ros.nodes.outputs import Outputs
 from yawdamp_ros.nodes.parameters import changed, declare_parameters
 from yawdamp_ros.nodes.recorder import Recorder
 from yawdamp_ros.nodes.recording import open_run, run_messages
+from yawdamp_ros.nodes.states import RecorderState, Reply, answer
 from yawdamp_ros.nodes.subscriptions import STEADY, SteeringSubscription, subscribe_speed
 from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.stepping import (
@@ -37,7 +38,6 @@ from yawdamp_ros.stepping import (
     SteeringInput,
     Stepper,
     TimeGrid,
-    Verdict,
     meaningless,
 )
 from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
@@ -259,7 +259,8 @@ class Simulator:
 
     def _on_reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._reset_wanted = True
-        response.success, response.message = True, "at rest at the origin from the next step on"
+        response.success = True
+        response.message = answer(Reply.RESET, "at rest at the origin from the next step on")
         return response
 
     def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
@@ -267,7 +268,10 @@ class Simulator:
             self._pacer.pause(time.monotonic_ns())
         else:
             self._pacer.resume(time.monotonic_ns())
-        response.success, response.message = True, "paused" if request.data else "running"
+        response.success = True
+        response.message = (
+            answer(Reply.PAUSED, "time stands") if request.data else answer(Reply.RUNNING, "time goes on")
+        )
         return response
 
     def _on_step(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
@@ -275,9 +279,15 @@ class Simulator:
         if response.success:
             self._advance()
             response.success = not self.stopped
-            response.message = self.stopped or f"simulated time {self.simulated_time:.9g} s"
+            response.message = (
+                answer(Reply.STOPPED, self.stopped)
+                if self.stopped
+                else answer(Reply.STEPPED, f"simulated time {self.simulated_time:.9g} s")
+            )
+        elif self.finished:
+            response.message = answer(Reply.STOPPED, "the run is over")
         else:
-            response.message = "not paused: steps are for a simulation that stands"
+            response.message = answer(Reply.NOT_PAUSED, "call ~/pause first")
         return response
 
     def _on_record(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
@@ -288,9 +298,10 @@ class Simulator:
             else:
                 self.recorder.stop()
         except YawdampError as error:
-            response.success, response.message = False, str(error)
+            response.success, response.message = False, answer(RecorderState.FAILED, str(error))
             return response
-        response.success, response.message = self.recorder.failure is None, self.recorder.state
+        response.success = self.recorder.failure is None
+        response.message = answer(self.recorder.state, self.recorder.detail)
         return response
 
     def _new_directory(self, *, numbered: bool) -> Path:
@@ -313,25 +324,21 @@ class Simulator:
         now = time.monotonic_ns()
         elapsed, self._looked_at = (now - self._looked_at) / SECOND, now
         silence = self._input.silence(self._stepper.step)
-        refused = {
-            verdict.value: count
-            for verdict, count in self._input.counts.items()
-            if verdict is not Verdict.TAKEN
-        }
-        refused |= {"speed refused": self._speed.rejected, "speed clamped": self._speed.clamped}
         readings = Readings(
             samples=self.samples_published,
             rate_wanted=self.settings.publish_rate * self.settings.real_time_factor,
             worst_lateness=self._worst_lateness,
-            steps_given_up=self.steps_given_up,
+            steps_dropped=self.steps_given_up,
             simulated_time=self.simulated_time,
             paused=self._pacer.paused,
-            steering_silence=None if silence is None else self.grid.seconds(silence),
+            steering_age=None if silence is None else self.grid.seconds(silence),
             steering_timed_out=self._input.timed_out(self._stepper.step),
-            steering_source=self.settings.manoeuvre.replace("none", "topic"),
-            refused=refused,
+            manoeuvre="" if self._subscription is not None else self.settings.manoeuvre,
+            commands=dict(self._input.counts),
+            speeds=dict(self._speed.counts),
             neighbourhood=self._neighbours.look(),
             recorder=self.recorder.state,
+            recorder_detail=self.recorder.detail,
             messages_lost=self.recorder.lost,
             least_damping_ratio=least_damping_ratio(self._stepper.model),
             speed=self._stepper.model.speed,

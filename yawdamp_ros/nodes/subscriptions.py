@@ -12,6 +12,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float64
 
 from yawdamp_ros.nodes.errors import NodeError
+from yawdamp_ros.nodes.states import VERDICT_SENTENCES
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_stamp
 from yawdamp_ros.stepping import SpeedInput, SteeringInput, Verdict
 from yawdamp_ros.stepping.time_grid import SECOND
@@ -98,16 +99,16 @@ class SteeringSubscription:
     def _receive(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
         command = self._angle(message, self._joint)
         if command is None:
-            self._target.refuse(Verdict.NO_JOINT)
+            self._target.reject(Verdict.NO_JOINT)
             self._warn(Verdict.NO_JOINT, f"no joint {self._joint!r} with a position")
             return
         stamp = message_stamp(message)
         age = (self._now() - stamp) / SECOND if stamp else None
         verdict = self._target.offer(command, self._step(), age)
-        if verdict is not Verdict.TAKEN:
+        if verdict is not Verdict.ACCEPTED:
             stamped = "" if age is None else f", stamped {age:.3g} s ago"
             count = self._target.counts[verdict]
-            self._warn(verdict, f"{command}{stamped}: {verdict.value}, {count} so far")
+            self._warn(verdict, f"{command}{stamped}: {VERDICT_SENTENCES[verdict]}, {count} so far")
 
     def _warn(self, kind: Verdict, text: str) -> None:
         # rclpy throttles by line of code; of two kinds of trouble neither may hide the other.
@@ -121,10 +122,10 @@ def subscribe_speed(node: Node, target: SpeedInput) -> None:
     """Hand the speed topic to a `SpeedInput`."""
 
     def receive(message: Float64) -> None:
-        if not target.offer(message.data):
+        verdict = target.offer(message.data)
+        if verdict is not Verdict.ACCEPTED:
             node.get_logger().warning(
-                f"speed: {message.data}: refused or clamped, "
-                f"{target.rejected} refused and {target.clamped} clamped so far",
+                f"speed: {message.data}: {VERDICT_SENTENCES[verdict]}, {target.counts[verdict]} so far",
                 throttle_duration_sec=WARNING_PERIOD,
                 throttle_time_source_type=STEADY,
             )

@@ -1,8 +1,9 @@
-"""What a run is asked for, declared once: for the node, its help, `simulate`, README and recordings."""
+"""Parameters of the simulator node: one record for the node, its help, the README and config/sim.yaml."""
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import Field, dataclass, field, fields
+from types import MappingProxyType
 from typing import Any
 
 from yawdamp_ros.dynamics import LOWEST_SPEED, MODELS
@@ -15,26 +16,48 @@ SLOWEST = 0.1
 """Least real_time_factor; slower, a pause and single steps serve better."""
 FASTEST_RATE = 1e4
 """Samples a second of real time that a node can be asked for."""
+_ANGLE = "NaN, or an angle of at most pi/2"
+_POSITIVE = "NaN, or a number above 0"
+_NOT_NEGATIVE = "NaN, or a number of at least 0"
 
 
-def _parameter(
+def _parameter(  # noqa: PLR0913 - each is one property of a parameter
     default: object,
     description: str,
     *,
     limits: tuple[float, float] | None = None,
     choices: Iterable[str] = (),
+    constraint: str = "",
     dynamic: bool = False,
+    name: str = "",
 ) -> Any:  # noqa: ANN401 - dataclasses.field is typed by its default
-    metadata = {"description": description, "limits": limits, "choices": tuple(choices), "dynamic": dynamic}
+    metadata = {
+        "description": description,
+        "limits": limits,
+        "choices": tuple(choices),
+        "constraint": constraint,
+        "dynamic": dynamic,
+        "name": name,
+    }
     if isinstance(default, list):
         return field(default_factory=default.copy, metadata=metadata)
     return field(default=default, metadata=metadata)
 
 
+def _setting(name: str, description: str, constraint: str) -> Any:  # noqa: ANN401 - as above
+    """A number of the manoeuvre's; NaN where it was not given, which no range can hold."""
+    return _parameter(
+        UNSET,
+        f"{description}; NaN: the manoeuvre's default",
+        constraint=constraint,
+        name=f"manoeuvre.{name}",
+    )
+
+
 # ruff: noqa: RUF009 - each default is a dataclasses.field
 @dataclass(frozen=True)
 class SimParameters:
-    """What a run can be asked for."""
+    """What the simulator node can be asked for; `PARAMETERS` holds the names that a ROS graph sees."""
 
     vehicle: str = _parameter("interlink", "builtin name or path of a vehicle file")
     vehicle_overrides: list[str] = _parameter(
@@ -87,16 +110,23 @@ class SimParameters:
         0.0, "fastest turn of the road wheels in rad/s; 0: any", limits=(0.0, 100.0)
     )
     manoeuvre: str = _parameter(
-        "none", "steering of the node's own, in place of the topic", choices=("none", *MANOEUVRES)
+        "none",
+        "steering of the node's own, in place of the topic",
+        choices=("none", *MANOEUVRES),
+        name="manoeuvre.name",
     )
-    amplitude: float = _parameter(UNSET, "of the manoeuvre, rad; nan: its own")
-    frequency: float = _parameter(UNSET, "of sine, lane change and chirp, Hz; nan: its own")
-    start: float = _parameter(UNSET, "of the manoeuvre, s; nan: its own")
-    cycles: float = _parameter(UNSET, "of sine and lane change; 0: endless; nan: its own")
-    rise_time: float = _parameter(UNSET, "of the ramp, s; nan: its own")
-    width: float = _parameter(UNSET, "of the pulse, s; nan: its own")
-    final_frequency: float = _parameter(UNSET, "of the chirp, Hz; nan: its own")
-    sweep_time: float = _parameter(UNSET, "of the chirp, s; nan: its own")
+    amplitude: float = _setting("amplitude", "road-wheel steer angle of the manoeuvre in rad", _ANGLE)
+    frequency: float = _setting(
+        "frequency", "of sine and lane change, and at the chirp's start, in Hz", _POSITIVE
+    )
+    start: float = _setting("start", "simulated time at which the manoeuvre begins, in s", _NOT_NEGATIVE)
+    cycles: float = _setting(
+        "cycles", "number of cycles of sine and lane change, 0 for no end", _NOT_NEGATIVE
+    )
+    rise_time: float = _setting("rise_time", "duration of the ramp in s", _POSITIVE)
+    width: float = _setting("width", "duration of the pulse in s", _POSITIVE)
+    final_frequency: float = _setting("final_frequency", "at the chirp's end, in Hz", _POSITIVE)
+    sweep_time: float = _setting("sweep_time", "duration of the chirp in s", _POSITIVE)
     max_lateral_acceleration: float = _parameter(
         100.0,
         "in m/s^2 of any unit, past which the model means nothing and the run is stopped",
@@ -146,7 +176,8 @@ class SimParameters:
         if self.speed_source == "topic" and self.speed_given:
             return f"speed: {self.speed}: speed_source is topic; expected 0, or speed_source parameter"
         if self.manoeuvre == "none" and self.manoeuvre_settings:
-            return f"{next(iter(self.manoeuvre_settings))}: there is no manoeuvre to use it"
+            given = next(iter(self.manoeuvre_settings))
+            return f"manoeuvre.{given}: manoeuvre.name is none; expected a manoeuvre"
         return ""
 
     @property
@@ -159,3 +190,14 @@ class SimParameters:
         """Settings of the manoeuvre that were given."""
         given = {name: getattr(self, name) for name in SETTINGS}
         return {name: value for name, value in given.items() if not math.isnan(value)}
+
+
+PARAMETERS: Mapping[str, Field[Any]] = MappingProxyType(
+    {declared.metadata["name"] or declared.name: declared for declared in fields(SimParameters)}
+)
+"""Fields of `SimParameters` by the names of the node's parameters."""
+
+FORMER_NAMES: Mapping[str, str] = MappingProxyType(
+    {declared.name: name for name, declared in PARAMETERS.items() if name != declared.name}
+)
+"""Names by former ones, which 0.1 still accepts."""

@@ -6,10 +6,11 @@ from yawdamp_ros.stepping.response import Response, linear_response, simulate
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.speed_input import SpeedInput
 from yawdamp_ros.stepping.steering_actuator import SteeringActuator
-from yawdamp_ros.stepping.steering_input import SteeringInput, Verdict
+from yawdamp_ros.stepping.steering_input import SteeringInput
 from yawdamp_ros.stepping.stepper import Snapshot, Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
 from yawdamp_ros.stepping.validity import meaningless
+from yawdamp_ros.stepping.verdict import Verdict
 
 __all__ = [
     "AppliedInput",

@@ -2,6 +2,8 @@
 
 import math
 
+from yawdamp_ros.stepping.verdict import Verdict
+
 LOWEST_SPEED = 1.0
 """In m/s. A slip angle is a lateral velocity over the speed, which means nothing towards standstill."""
 HIGHEST_SPEED = 70.0
@@ -9,29 +11,57 @@ HIGHEST_SPEED = 70.0
 
 
 class SpeedInput:
-    """The newest valid speed, held; attributes count what was refused or clamped.
+    """The newest valid speed, held; every speed is judged and counted.
 
     Parameters
     ----------
     speed : float
-        Until the first one arrives, m/s.
+        Until the first one arrives [m/s].
+
+    Attributes
+    ----------
+    speed : float
+        In force [m/s].
+    counts : dict of Verdict to int
+        Speeds offered so far, by verdict.
+
+    Examples
+    --------
+    >>> source = SpeedInput(20.0)
+    >>> source.offer(0.5)
+    <Verdict.CLAMPED: 'clamped'>
+    >>> source.speed
+    1.0
     """
 
     def __init__(self, speed: float) -> None:
         self.speed = speed
-        self.rejected = 0
-        self.clamped = 0
+        self.counts = dict.fromkeys(
+            (Verdict.ACCEPTED, Verdict.CLAMPED, Verdict.NOT_FINITE, Verdict.BACKWARDS), 0
+        )
 
-    def offer(self, speed: float) -> bool:
-        """Take a speed in m/s; return False if it was refused or clamped.
+    def offer(self, speed: float) -> Verdict:
+        """Accept, clamp or reject a speed, and count which.
 
-        NaN, infinities and driving backwards are refused; what is too slow or too fast is clamped.
+        Parameters
+        ----------
+        speed : float
+            In m/s. NaN, infinities and driving backwards are rejected; what is too slow or too fast is
+            clamped.
+
+        Returns
+        -------
+        Verdict
         """
-        if not math.isfinite(speed) or speed < 0.0:
-            self.rejected += 1
-            return False
-        self.speed = min(max(speed, LOWEST_SPEED), HIGHEST_SPEED)
-        if self.speed != speed:
-            self.clamped += 1
-            return False
-        return True
+        verdict = self._judge(speed)
+        self.counts[verdict] += 1
+        if verdict in {Verdict.ACCEPTED, Verdict.CLAMPED}:
+            self.speed = min(max(speed, LOWEST_SPEED), HIGHEST_SPEED)
+        return verdict
+
+    def _judge(self, speed: float) -> Verdict:
+        if not math.isfinite(speed):
+            return Verdict.NOT_FINITE
+        if speed < 0.0:
+            return Verdict.BACKWARDS
+        return Verdict.ACCEPTED if LOWEST_SPEED <= speed <= HIGHEST_SPEED else Verdict.CLAMPED

@@ -1,17 +1,8 @@
 """What becomes of a steering command before it reaches the actuator."""
 
 import math
-from enum import Enum
 
-
-class Verdict(Enum):
-    """What was done with a command."""
-
-    TAKEN = "taken"
-    CLAMPED = "clamped to max_steering_angle"
-    NOT_FINITE = "refused, not a finite angle"
-    NO_JOINT = "refused, without the joint that steers"
-    STALE = "refused, its stamp is not of now"
+from yawdamp_ros.stepping.verdict import Verdict
 
 
 class SteeringInput:
@@ -33,6 +24,19 @@ class SteeringInput:
         Whether silence returns the wheels to straight ahead; else the last command is held.
     max_age : float
         Farthest that a stamp may be from now, into the past or the future, in s; 0: any.
+
+    Attributes
+    ----------
+    counts : dict of Verdict to int
+        Commands offered so far, by verdict.
+
+    Examples
+    --------
+    >>> source = SteeringInput(ratio=1.0, limit=0.5, timeout_steps=100, zero_on_timeout=False, max_age=0.0)
+    >>> source.offer(0.8, step=0)
+    <Verdict.CLAMPED: 'clamped'>
+    >>> source.at(1)
+    0.5
     """
 
     def __init__(
@@ -43,29 +47,36 @@ class SteeringInput:
         self.timeout_steps = timeout_steps
         self.zero_on_timeout = zero_on_timeout
         self.max_age = max_age
-        self.counts = dict.fromkeys(Verdict, 0)
+        self.counts = dict.fromkeys(
+            (Verdict.ACCEPTED, Verdict.CLAMPED, Verdict.NOT_FINITE, Verdict.NO_JOINT, Verdict.STALE), 0
+        )
         self._angle = 0.0
         self._received_at: int | None = None
 
     def offer(self, command: float, step: int, age: float | None = None) -> Verdict:
-        """Take or refuse a command in rad that arrived after a step, and count which.
+        """Accept, clamp or reject a command that arrived after a step, and count which.
 
-        Of a command that is refused nothing stays: the one before it is in force.
+        A rejected command leaves the one before it in force.
 
         Parameters
         ----------
         command : float
+            In rad, of the road wheel times the ratio.
         step : int
         age : float, optional
-            How long ago it was stamped, in s; None if it bears no stamp.
+            Time since it was stamped [s]; None if it bears no stamp.
+
+        Returns
+        -------
+        Verdict
         """
         verdict, angle = self._judge(command, age)
         self.counts[verdict] += 1
-        if verdict in {Verdict.TAKEN, Verdict.CLAMPED}:
+        if verdict in {Verdict.ACCEPTED, Verdict.CLAMPED}:
             self._angle, self._received_at = angle, step
         return verdict
 
-    def refuse(self, verdict: Verdict) -> None:
+    def reject(self, verdict: Verdict) -> None:
         """Count a message that held no command."""
         self.counts[verdict] += 1
 
@@ -92,4 +103,4 @@ class SteeringInput:
         angle = command / self.ratio
         if abs(angle) > self.limit:
             return Verdict.CLAMPED, math.copysign(self.limit, angle)
-        return Verdict.TAKEN, angle
+        return Verdict.ACCEPTED, angle

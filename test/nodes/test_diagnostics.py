@@ -1,0 +1,126 @@
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus
+
+from graph import values
+from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
+from yawdamp_ros.nodes.neighbours import Finding, Neighbourhood
+from yawdamp_ros.nodes.states import Problem, RecorderState
+from yawdamp_ros.stepping import Verdict
+
+ALONE = Neighbourhood(0, ())
+IN_ORDER = Readings(
+    samples=100,
+    rate_wanted=100.0,
+    worst_lateness=0.0015,
+    steps_dropped=0,
+    simulated_time=1.0,
+    paused=False,
+    steering_age=0.01,
+    steering_timed_out=False,
+    manoeuvre="",
+    commands={Verdict.ACCEPTED: 5, Verdict.CLAMPED: 0, Verdict.STALE: 0},
+    speeds={Verdict.ACCEPTED: 0, Verdict.BACKWARDS: 0},
+    neighbourhood=ALONE,
+    recorder=RecorderState.RECORDING,
+    recorder_detail="runs/a",
+    messages_lost=0,
+    least_damping_ratio=0.4,
+    speed=22.5,
+)
+
+
+def looks(*readings: Readings) -> dict[str, DiagnosticStatus]:
+    """Statuses of the last of several looks, a second apart, by part."""
+    diagnosis = Diagnosis("/yawdamp_sim", "interlink")
+    array = [diagnosis.of(one, 1.0, 3_000_000_007) for one in readings][-1]
+    assert (array.header.stamp.sec, array.header.stamp.nanosec) == (3, 7)
+    return {status.name.removeprefix("/yawdamp_sim: "): status for status in array.status}
+
+
+def told(status: DiagnosticStatus) -> tuple[bytes, str]:
+    return status.level, values(status)["state"]
+
+
+def with_changes(**changes: Any) -> Readings:  # noqa: ANN401 - any reading
+    return IN_ORDER._replace(**changes)
+
+
+def test_good_order_is_ok_in_every_part() -> None:
+    statuses = looks(IN_ORDER)
+    assert {part: told(status) for part, status in statuses.items()} == {
+        "timing": (b"\0", "in_time"),
+        "steering": (b"\0", "commanded"),
+        "recorder": (b"\0", "recording"),
+        "model": (b"\0", "stable"),
+    }
+    assert values(statuses["timing"])["achieved_rate"] == "100.00 Hz"
+    assert values(statuses["timing"])["worst_lateness"] == "1.500 ms"
+    assert {status.hardware_id for status in statuses.values()} == {"interlink"}
+    assert statuses["recorder"].message == "recording to runs/a"
+
+
+def test_every_count_is_told_under_the_key_of_its_verdict() -> None:
+    steering = values(looks(IN_ORDER)["steering"])
+    assert (steering["accepted"], steering["clamped"], steering["rejected_stale"]) == ("5", "0", "0")
+    assert steering["speed_rejected_backwards"] == "0"
+
+
+def test_dropped_steps_warn_at_the_look_that_sees_them_and_not_at_the_next() -> None:
+    dropped = with_changes(steps_dropped=40)
+    assert told(looks(IN_ORDER, dropped)["timing"]) == (b"\1", "steps_dropped")
+    assert told(looks(IN_ORDER, dropped, dropped)["timing"]) == (b"\0", "in_time")
+
+
+def test_a_pause_is_told() -> None:
+    timing = looks(with_changes(paused=True))["timing"]
+    assert told(timing) == (b"\0", "paused")
+    assert values(timing)["wanted_rate"] == "paused"
+
+
+def test_a_rejected_command_warns_once_with_its_key() -> None:
+    rejected = with_changes(commands={Verdict.ACCEPTED: 5, Verdict.CLAMPED: 0, Verdict.STALE: 2})
+    steering = looks(IN_ORDER, rejected)["steering"]
+    assert told(steering) == (b"\1", "commanded")
+    assert values(steering)["problems"] == "rejected_stale"
+    assert steering.message == ("since the last look: steering rejected, its time stamp is too far from now")
+    assert told(looks(IN_ORDER, rejected, rejected)["steering"])[0] == b"\0"
+
+
+def test_the_speed_s_problems_are_told_apart_from_the_steering_s() -> None:
+    backwards = with_changes(speeds={Verdict.ACCEPTED: 0, Verdict.BACKWARDS: 1})
+    steering = looks(IN_ORDER, backwards)["steering"]
+    assert values(steering)["problems"] == "speed_rejected_backwards"
+
+
+def test_the_origin_of_the_steering_is_told() -> None:
+    assert told(looks(with_changes(steering_age=None))["steering"]) == (b"\0", "no_command")
+    timed_out = with_changes(steering_age=0.7, steering_timed_out=True)
+    assert told(looks(timed_out)["steering"]) == (b"\1", "timed_out")
+    driven = with_changes(steering_age=None, manoeuvre="sine")
+    assert told(looks(driven)["steering"]) == (b"\0", "manoeuvre")
+
+
+def test_the_neighbours_findings_warn_for_as_long_as_they_last() -> None:
+    findings = (
+        Finding(Problem.SEVERAL_PUBLISHERS, "two steer"),
+        Finding(Problem.QOS_MISMATCH, "one is deaf"),
+    )
+    crowded = with_changes(neighbourhood=Neighbourhood(3, findings))
+    for statuses in (looks(crowded), looks(crowded, crowded)):
+        assert statuses["steering"].level == b"\1"
+        assert values(statuses["steering"])["problems"] == "several_publishers,qos_mismatch"
+        assert statuses["steering"].message == "two steer; one is deaf"
+
+
+def test_a_recorder_that_failed_is_an_error_for_good_and_one_that_drops_when_it_does() -> None:
+    failed = with_changes(recorder=RecorderState.FAILED, recorder_detail="no space left")
+    assert told(looks(failed, failed)["recorder"]) == (b"\2", "failed")
+    assert looks(failed)["recorder"].message == "failed: no space left"
+    dropping = with_changes(messages_lost=16)
+    assert told(looks(IN_ORDER, dropping)["recorder"]) == (b"\2", "dropping")
+    assert told(looks(IN_ORDER, dropping, dropping)["recorder"]) == (b"\0", "recording")
+
+
+def test_an_unstable_model_warns() -> None:
+    assert told(looks(with_changes(least_damping_ratio=-0.01))["model"]) == (b"\1", "unstable")
