@@ -39,4 +39,6 @@ def test_a_minute_of_fuzzing_finds_nothing(target: str, tmp_path: Path, say: Cal
         f"{len(finds)} finds"
     )
     assert done.returncode == 0, said[-5000:]
+    assert executed is not None
+    assert int(executed[1]) > len(list(corpus.iterdir()))
     assert not finds

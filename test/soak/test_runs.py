@@ -3,6 +3,7 @@
 import json
 import math
 import random
+import re
 import subprocess
 import sys
 import time
@@ -109,7 +110,11 @@ def test_a_ten_minute_log_does_not_drift(graph: Graph, say: SAY) -> None:
     assert replay.returncode == 0, errors
     node.terminate()
     node.communicate()
-    say(output.splitlines()[-1])
+    last = output.splitlines()[-1]
+    say(last)
+    (after,) = re.findall(r"the last sample ([\d.]+) ms after its time", last)
+    # A drift of a hundredth of a percent would be 60 ms after ten minutes.
+    assert float(after) <= 20.0
 
 
 def test_time_keeps_up_for_a_minute_on_busy_cores_or_says_what_it_lost(graph: Graph, say: SAY) -> None:
@@ -146,6 +151,7 @@ def test_time_keeps_up_for_a_minute_on_busy_cores_or_says_what_it_lost(graph: Gr
         f"beyond them {1e3 * min(behind):.1f} to {1e3 * max(behind):.1f} ms behind, one sample being 10 ms"
     )
     # Nothing is lost for good without being counted: more than 0.1 s would have been given up.
+    assert looks[-1][0] - looks[0][0] >= 55.0
     assert len(looks) > 55
     assert sum(abs(value) <= 0.011 for value in behind) > len(behind) // 2
     assert max(behind) <= 0.2

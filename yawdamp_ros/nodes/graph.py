@@ -13,7 +13,6 @@ import rclpy
 from rclpy.duration import Duration
 from rclpy.exceptions import ParameterException
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -23,8 +22,6 @@ from rclpy.signals import SignalHandlerOptions
 from yawdamp_ros.files import read_text
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.stop_request import StopRequest
-
-RCLError = rclpy_implementation.RCLError
 
 SPIN_PERIOD = 0.05
 """Longest time in s that the executor waits on end."""
@@ -64,8 +61,11 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
     warnings.filterwarnings("ignore", "Failed to fini", RuntimeWarning)
     try:
         yield
-    # Parameters that every node has, lists of another type; a node that rcl cannot make.
-    except (ParameterException, RCLError) as error:
+    except ParameterException as error:  # parameters that every node has, lists of another type
+        raise NodeError(_first_line(error)) from error
+    except RuntimeError as error:
+        if not _is_of_rclpy(error):
+            raise
         raise NodeError(_first_line(error)) from error
     finally:
         rclpy.try_shutdown()
@@ -148,6 +148,11 @@ def _check_parameter_file(path: Path) -> None:
     if text.count("[") + text.count("{") > MOST_BRACKETS:
         message = f"--params-file: {path}: more than {MOST_BRACKETS} lists and mappings in brackets"
         raise NodeError(message)
+
+
+def _is_of_rclpy(error: RuntimeError) -> bool:
+    """Whether an error is rcl's, such as of a node that it cannot make: rclpy exports no class for them."""
+    return type(error).__module__.partition(".")[0] == "rclpy"
 
 
 def _first_line(error: Exception) -> str:

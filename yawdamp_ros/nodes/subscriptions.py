@@ -84,12 +84,13 @@ class SteeringSubscription:
         self._subscription = node.create_subscription(
             message_class(type_name), "steering", self._receive, QUEUE_DEPTH, event_callbacks=QUIET
         )
+        # As rclpy's executor takes: it has no public call for it. Without, commands wait for the executor.
+        self._can_take = hasattr(self._subscription.handle, "take_message")
 
     def take(self) -> None:
-        """Take what has arrived, which the executor may only come to after the sample that is due."""
+        """Drain pending commands now, so that they act in this sample rather than one period later."""
         subscription = self._subscription
-        for _ in range(QUEUE_DEPTH):
-            # As the executor takes: rclpy has no call of its own for it.
+        for _ in range(QUEUE_DEPTH if self._can_take else 0):
             with subscription.handle:
                 taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
             if taken is None:
