@@ -34,8 +34,11 @@ def refused(path: Path) -> str:
     "text, said",
     [
         (f"{NODE}    speed: 1.0e+400\n", "parameter speed: "),
-        (f"{NODE}    use_sim_time: 3\n", "'use_sim_time' to '3' of type 'INTEGER', expecting type 'BOOL'"),
-        (f"{NODE}    vehicle_overrides: [true]\n", "of type 'BOOL_ARRAY', expecting type 'STRING_ARRAY'"),
+        (f"{NODE}    use_sim_time: 3\n", "parameter use_sim_time: 3: expected true or false"),
+        (
+            f"{NODE}    vehicle_overrides: [true]\n",
+            "vehicle_overrides: [True]: expected a list of strings",
+        ),
         (f"{NODE}    vehicle: !!python/object/apply:os.system [touch executed]\n", "expected a string"),
         (f"{NODE}    speed: &a 20.0\n    duration: *a\n", "Will not support aliasing at line 4"),
         (f'{NODE}    "a\\nb\\e[2J": 1\n', r"parameter a\nb\x1b[2J: no such parameter"),

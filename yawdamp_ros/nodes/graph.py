@@ -13,7 +13,7 @@ import rclpy
 from rclpy.duration import Duration
 from rclpy.exceptions import ParameterException
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.logging import LoggingSeverity, get_logger_level, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
@@ -77,7 +77,14 @@ def join(name: str, overrides: Mapping[str, Any]) -> Node:
     What was given is declared, so that `declare_parameters` can see what nobody else declares.
     """
     parameters = [Parameter(parameter, value=value) for parameter, value in overrides.items()]
-    return Node(name, parameter_overrides=parameters, automatically_declare_parameters_from_overrides=True)
+    level = get_logger_level("")
+    set_logger_level("", LoggingSeverity.FATAL)  # what is wrong with a parameter is raised, and said once
+    try:
+        return Node(
+            name, parameter_overrides=parameters, automatically_declare_parameters_from_overrides=True
+        )
+    finally:
+        set_logger_level("", level)
 
 
 def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: Callable[[], None]) -> bool:
@@ -126,13 +133,22 @@ def spinning(node: Node) -> Iterator[None]:
     """Serve a node in a thread of its own, for as long as this thread has other work."""
     executor = SingleThreadedExecutor()
     executor.add_node(node)
-    thread = threading.Thread(target=executor.spin, name="executor")
+    ended = threading.Event()
+
+    def serve() -> None:
+        while not ended.is_set():
+            executor.spin_once(SPIN_PERIOD)
+
+    thread = threading.Thread(target=serve, name="executor")
     thread.start()
     try:
         yield
     finally:
-        executor.shutdown()
+        # A shutdown in mid-spin can take the guard away before the wait that is to end by it.
+        ended.set()
+        executor.wake()
         thread.join()
+        executor.shutdown()
 
 
 def _check_parameter_file(path: Path) -> None:

@@ -121,6 +121,9 @@ def _given(node: Node) -> dict[str, Any]:
     """Values that were given, by today's names; none of them is declared any more."""
     given = {}
     for name, parameter in node.get_parameters_by_prefix("").items():
+        if name == "use_sim_time" and not isinstance(parameter.value, bool):
+            message = f"parameter {name}: {parameter.value!r}: expected {_TYPE_NAMES[bool]}"
+            raise NodeError(message)
         if name.startswith(_OF_RCLPY):
             continue
         new = FORMER_NAMES.get(name, name)
@@ -144,7 +147,8 @@ def _check(name: str, value: Any) -> None:  # noqa: ANN401 - of any type that a 
     described: Mapping[str, Any] = declared.metadata
     default = getattr(SimParameters(), declared.name)
     problem = ""
-    if type(value) is not type(default):
+    mixed = isinstance(default, list) and not all(isinstance(item, str) for item in value or [])
+    if type(value) is not type(default) or mixed:
         wanted = _TYPE_NAMES[type(default)]
         problem = f"expected {wanted}"
         if isinstance(default, float) and type(value) is int:
