@@ -18,6 +18,8 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "stability": "modes, damping, understeer gradient, critical speed; root locus, Bode, Nyquist",
         "assess": "rearward amplification, yaw damping, offtracking against the levels of the field",
         "sweep": "a measure over ranges of parameters: curve, stability map, random vehicles",
+        "compare": "simulated against measured on a recorded drive: bias, gain, lag, R2, coherence",
+        "identify": "parameters of a vehicle from a recorded drive, with confidence intervals",
         "plot": "the curves of a run, or of several compared, as a picture",
         "urdf": "a vehicle as URDF, for robot_state_publisher",
     }

@@ -1,7 +1,56 @@
-"""Recorded drives as arrays: their channels, what a model makes of them, and what they say of a vehicle."""
+"""Recorded drives as arrays: their channels, what a model makes of them, and what they say of a vehicle.
 
-from yawdamp_ros.drives.channel import QUANTITIES, UNITS, Channel, quantity_of
-from yawdamp_ros.drives.drive import INPUTS, Drive
-from yawdamp_ros.drives.errors import DriveError
+The names below load on first use: a reader of drives does not need what fits one.
+"""
 
-__all__ = ["INPUTS", "QUANTITIES", "UNITS", "Channel", "Drive", "DriveError", "quantity_of"]
+from typing import TYPE_CHECKING
+
+from yawdamp_ros.lazy import load_on_use
+
+if TYPE_CHECKING:
+    from yawdamp_ros.drives.channel import QUANTITIES, UNITS, Channel, quantity_of
+    from yawdamp_ros.drives.comparison import ChannelComparison, Excitation, compare, excitation
+    from yawdamp_ros.drives.drive import INPUTS, Drive
+    from yawdamp_ros.drives.errors import DriveError
+    from yawdamp_ros.drives.identification import Estimate, Identification, identify
+    from yawdamp_ros.drives.matching import Match, matches
+    from yawdamp_ros.drives.parameters import DEFAULT, Parameter
+    from yawdamp_ros.drives.prediction import Inputs, inputs_of, predict
+
+__all__ = [
+    "DEFAULT",
+    "INPUTS",
+    "QUANTITIES",
+    "UNITS",
+    "Channel",
+    "ChannelComparison",
+    "Drive",
+    "DriveError",
+    "Estimate",
+    "Excitation",
+    "Identification",
+    "Inputs",
+    "Match",
+    "Parameter",
+    "compare",
+    "excitation",
+    "identify",
+    "inputs_of",
+    "matches",
+    "predict",
+    "quantity_of",
+]
+
+__getattr__ = load_on_use(
+    __name__,
+    {
+        "yawdamp_ros.drives.channel": ("QUANTITIES", "UNITS", "Channel", "quantity_of"),
+        "yawdamp_ros.drives.comparison": ("ChannelComparison", "Excitation", "compare", "excitation"),
+        "yawdamp_ros.drives.drive": ("INPUTS", "Drive"),
+        "yawdamp_ros.drives.errors": ("DriveError",),
+        "yawdamp_ros.drives.identification": ("Estimate", "Identification", "identify"),
+        "yawdamp_ros.drives.matching": ("Match", "matches"),
+        "yawdamp_ros.drives.parameters": ("DEFAULT", "Parameter"),
+        "yawdamp_ros.drives.prediction": ("Inputs", "inputs_of", "predict"),
+    },
+)

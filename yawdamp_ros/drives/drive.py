@@ -73,6 +73,12 @@ class Drive:
         gained = np.concatenate([[0.0], np.cumsum(np.diff(given.times) * given.values[:-1])])
         return Channel("speed", f"integral of {given.source}", given.times, start + gained)
 
+    def without(self, *names: str) -> "Drive":
+        """Leave out some channels."""
+        return replace(
+            self, channels={name: each for name, each in self.channels.items() if name not in names}
+        )
+
     def steered_by(self, ratio: float) -> "Drive":
         """Divide the steering by a ratio, such as that of hand wheel to road wheel.
 

@@ -7,8 +7,8 @@ from scipy.linalg import solve_triangular
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
-ORDERS = (0, 1, 2, 3, 5, 8, 13, 21)
-"""Of the autoregression, of which the Bayesian information criterion takes one."""
+ORDERS = (0, 1, 2, 3, 5, 8, 13, 21, 34, 55)
+"""Of the autoregression, of which Akaike's criterion takes one: slow noise needs many coefficients."""
 
 
 class NoiseModel(NamedTuple):
@@ -36,15 +36,17 @@ class NoiseModel(NamedTuple):
         -------
         ndarray, shape (k - p, m, ...)
         """
-        shape = (-1, *residuals.shape[1:])
-        count, order = len(residuals), self.order
-        flat = residuals.reshape(count, residuals.shape[1], -1)
-        innovations = flat[order:].copy()
+        count, size, *others = residuals.shape
+        order, columns = self.order, int(np.prod(others, dtype=int))
+        # One row a channel, so that a lag is a shift of columns, and each product a large one.
+        rows = np.moveaxis(residuals, 1, 0).reshape(size, count * columns)
+        innovations = rows[:, order * columns :].copy()
         for index, coefficients in enumerate(self.coefficients):
-            innovations -= np.matmul(coefficients, flat[order - 1 - index : count - 1 - index])
-        across = innovations.transpose(1, 0, 2)
-        white = solve_triangular(self.factor, across.reshape(len(self.factor), -1), lower=True)
-        return np.asarray(white.reshape(across.shape).transpose(1, 0, 2).reshape(shape), dtype=np.float64)
+            innovations -= (
+                coefficients @ rows[:, (order - 1 - index) * columns : (count - 1 - index) * columns]
+            )
+        white = solve_triangular(self.factor, innovations, lower=True)
+        return np.ascontiguousarray(np.moveaxis(white.reshape(size, count - order, *others), 0, 1))
 
 
 def independent(residuals: FloatArray) -> NoiseModel:
@@ -65,7 +67,7 @@ def fitted(residuals: FloatArray) -> NoiseModel:
     covariances[0] = covariances[0] + 1e-12 * np.eye(size) * max(float(np.trace(covariances[0])), 1e-300)
     models = [_yule_walker(covariances, order) for order in orders]
     criteria = [
-        2.0 * count * float(np.log(np.diag(model.factor)).sum()) + model.order * size**2 * np.log(count)
+        2.0 * count * float(np.log(np.diag(model.factor)).sum()) + 2.0 * model.order * size**2
         for model in models
     ]
     return models[int(np.argmin(criteria))]

@@ -10,16 +10,14 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.linalg import expm
 
 from yawdamp_ros.drives.drive import Drive
-from yawdamp_ros.dynamics import LinearModel, linear_model
+from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.speed_input import HIGHEST_SPEED, LOWEST_SPEED
 from yawdamp_ros.vehicle import Vehicle
 
-IntArray = npt.NDArray[np.int64]
 STEP_SIZE = 0.01
 """In s: a hundredth of the period of anything that a heavy vehicle does."""
 SPEED_RATIO = 1.01
@@ -92,18 +90,10 @@ def predict(vehicle: Vehicle, inputs: Inputs, model: str = "consistent") -> Mapp
         ``<unit>/yaw_rate``, ``<unit>/lateral_acceleration``, ``<unit>/yaw`` and ``articulation_1`` onwards.
     """
     step = float(inputs.times[1] - inputs.times[0]) if len(inputs.times) > 1 else STEP_SIZE
-    low, high = float(inputs.speed.min()), float(inputs.speed.max())
-    nodes = max(math.ceil(math.log(high / low) / math.log(SPEED_RATIO)), 1) + 1
-    speeds = np.geomspace(low, high, nodes)
-    models = [linear_model(vehicle, float(speed), model) for speed in speeds]
-    place = np.clip(np.searchsorted(speeds, inputs.speed, side="right") - 1, 0, nodes - 2)
-    width = speeds[place + 1] - speeds[place]
-    share = np.where(width > 0.0, (inputs.speed - speeds[place]) / np.where(width > 0.0, width, 1.0), 0.0)
-    weights = _Between(place, share)
-    states = _states(_steps(models, step), weights, inputs.mean_steering, _steady(models, inputs))
-    outputs = np.stack([np.column_stack([each.output_matrix, each.feedthrough]) for each in models])
-    found = _outputs(outputs, weights, np.column_stack([states, inputs.steering]))
-    named = dict(zip(models[0].output_names, found.T, strict=True))
+    family = _Family.of(vehicle, float(inputs.speed.min()), float(inputs.speed.max()), model)
+    states = _states(family, step, inputs)
+    outputs = family.outputs(np.column_stack([states, inputs.steering]), inputs.speed)
+    named = dict(zip(family.output_names, outputs.T, strict=True))
     lead = vehicle.unit_names[0]
     yaw = np.concatenate(
         [[0.0], np.cumsum(0.5 * step * (named[f"{lead}/yaw_rate"][1:] + named[f"{lead}/yaw_rate"][:-1]))]
@@ -115,72 +105,92 @@ def predict(vehicle: Vehicle, inputs: Inputs, model: str = "consistent") -> Mapp
     return named
 
 
-class _Between(NamedTuple):
-    """Where each instant's speed lies: after which node, and how far on the way to the next."""
+class _Family(NamedTuple):
+    """A linear model at every speed: all of its numbers are ``a + b / speed + c speed``.
 
-    place: IntArray
-    share: FloatArray
+    Attributes
+    ----------
+    rates, responses : ndarray, shape (3, .., 2 n + 1)
+        The three parts of state and input matrix, and of output matrix and feed-through.
+    output_names : tuple of str
+    """
 
-    def of(self, stack: FloatArray, instants: slice | IntArray) -> FloatArray:
-        """Matrices of a stack, one for each of some instants."""
-        place, share = self.place[instants], self.share[instants][:, np.newaxis, np.newaxis]
-        mixed: FloatArray = stack[place] * (1.0 - share) + stack[place + 1] * share
-        return mixed
+    rates: FloatArray
+    responses: FloatArray
+    output_names: tuple[str, ...]
+
+    @classmethod
+    def of(cls, vehicle: Vehicle, low: float, high: float, model: str) -> "_Family":
+        # Three speeds tell the three parts; they lie apart, also where the drive keeps to one speed.
+        speeds = np.array([0.8 * low, np.sqrt(low * high), 1.25 * high])
+        models = [linear_model(vehicle, float(speed), model) for speed in speeds]
+        basis = np.linalg.inv(_basis(speeds))
+        rates = [np.column_stack([each.state_matrix, each.input_matrix]) for each in models]
+        responses = [np.column_stack([each.output_matrix, each.feedthrough]) for each in models]
+        return cls(
+            np.tensordot(basis, np.array(rates), 1),
+            np.tensordot(basis, np.array(responses), 1),
+            models[0].output_names,
+        )
+
+    def at(self, speeds: FloatArray) -> FloatArray:
+        """State and input matrix at each of some speeds, shape (m, 2 n, 2 n + 1)."""
+        return np.tensordot(_basis(speeds), self.rates, 1)
+
+    def outputs(self, known: FloatArray, speeds: FloatArray) -> FloatArray:
+        """Outputs by states and steer angle, shape (k, 2 n + 1), each at its own speed."""
+        parts = zip(_basis(speeds).T, self.responses, strict=True)
+        found: FloatArray = sum(
+            (share[:, np.newaxis] * (known @ part.T) for share, part in parts), np.zeros(())
+        )
+        return found
 
 
-def _steps(models: list[LinearModel], step: float) -> FloatArray:
-    """State after a step by state and held steering, shape (m, 2 n, 2 n + 1)."""
-    size = len(models[0].state_matrix)
-    rates = np.zeros((len(models), size + 1, size + 1))
-    rates[:, :size, :size] = [each.state_matrix for each in models]
-    rates[:, :size, size] = [each.input_matrix for each in models]
-    stack: FloatArray = expm(step * rates)[:, :size]
-    return stack
+def _basis(speeds: FloatArray) -> FloatArray:
+    return np.column_stack([np.ones_like(speeds), 1.0 / speeds, speeds])
 
 
-def _steady(models: list[LinearModel], inputs: Inputs) -> FloatArray:
-    nearest = models[int(np.argmin([abs(each.speed - inputs.speed[0]) for each in models]))]
-    turn = np.linalg.solve(nearest.state_matrix, nearest.input_matrix)
-    return np.asarray(-inputs.steering[0] * turn, dtype=np.float64)
+def _steps(family: _Family, step: float, speeds: FloatArray) -> FloatArray:
+    """State after a step by state and held steering, each at its own speed, shape (k, 2 n, 2 n + 1)."""
+    low, high = float(speeds.min()), float(speeds.max())
+    nodes = np.geomspace(low, high, max(math.ceil(math.log(high / low) / math.log(SPEED_RATIO)), 1) + 1)
+    rates = family.at(nodes)
+    square = np.zeros((len(nodes), rates.shape[2], rates.shape[2]))
+    square[:, :-1] = step * rates
+    stack: FloatArray = expm(square)[:, :-1]
+    if low == high:
+        return np.broadcast_to(stack[:1], (len(speeds), *stack.shape[1:]))
+    place = np.clip(np.searchsorted(nodes, speeds, side="right") - 1, 0, len(nodes) - 2)
+    share = ((speeds - nodes[place]) / (nodes[place + 1] - nodes[place]))[:, np.newaxis, np.newaxis]
+    mixed: FloatArray = stack[place]
+    mixed += share * (stack[place + 1] - mixed)
+    return mixed
 
 
-def _states(steps: FloatArray, weights: _Between, steering: FloatArray, start: FloatArray) -> FloatArray:
-    count, size = len(steering), len(start)
-    blocks = max(min(MOST_BLOCKS, count // 64), 1)
-    length = -(-count // blocks)
-    first = length * np.arange(-(-count // length))
-    blocks = len(first)
-    angles = np.zeros(blocks * length)
-    angles[:count] = steering
-    padded = _Between(np.resize(weights.place, blocks * length), np.resize(weights.share, blocks * length))
+def _states(family: _Family, step: float, inputs: Inputs) -> FloatArray:
+    count = len(inputs.times)
+    length = -(-count // max(min(MOST_BLOCKS, count // 64), 1))
+    blocks = -(-count // length)
+    whole = blocks * length
+    steps = _steps(family, step, np.append(inputs.speed, np.full(whole - count, inputs.speed[-1])))
+    size = steps.shape[1]
+    # Instants of all blocks side by side come next to each other in memory.
+    steps = np.ascontiguousarray(steps.reshape(blocks, length, size, size + 1).swapaxes(0, 1))
+    angles = np.append(inputs.mean_steering, np.zeros(whole - count)).reshape(blocks, length).T
+    added = steps[..., -1] * angles[..., np.newaxis]
     moved = np.zeros((blocks, size, size + 1))  # by the state at the start, and what steering adds
     moved[:, :, :size] = np.eye(size)
-    for index in range(length):
-        now = padded.of(steps, first + index)
-        added = now[:, :, size] * angles[first + index][:, np.newaxis]
-        moved = now[:, :, :size] @ moved
-        moved[:, :, size] += added
-    starts = np.empty((blocks, size))
-    starts[0] = start
+    for transition, steered in zip(steps[..., :size], added, strict=True):
+        moved = transition @ moved
+        moved[:, :, size] += steered
+    first = family.at(inputs.speed[:1])[0]
+    now = np.empty((blocks, size, 1))
+    now[0, :, 0] = -inputs.steering[0] * np.linalg.solve(first[:, :size], first[:, size])
     for block in range(1, blocks):
-        starts[block] = moved[block - 1] @ np.append(starts[block - 1], 1.0)
+        now[block, :, 0] = moved[block - 1] @ np.append(now[block - 1, :, 0], 1.0)
     states = np.empty((length, blocks, size))
-    now_at = starts[:, :, np.newaxis]
-    for index in range(length):
-        states[index] = now_at[:, :, 0]
-        now = padded.of(steps, first + index)
-        now_at = (
-            now[:, :, :size] @ now_at + now[:, :, size:] * angles[first + index][:, np.newaxis, np.newaxis]
-        )
-    return states.transpose(1, 0, 2).reshape(blocks * length, size)[:count]
-
-
-def _outputs(stack: FloatArray, weights: _Between, known: FloatArray) -> FloatArray:
-    if len(stack) == 2 and (stack[0] == stack[1]).all():  # noqa: PLR2004 - one speed
-        constant: FloatArray = known @ stack[0].T
-        return constant
-    parts = []
-    for begin in range(0, len(known), 1 << 14):
-        piece = slice(begin, begin + (1 << 14))
-        parts.append((weights.of(stack, piece) @ known[piece][:, :, np.newaxis])[:, :, 0])
-    return np.concatenate(parts)
+    for index, (transition, steered) in enumerate(zip(steps[..., :size], added, strict=True)):
+        states[index] = now[:, :, 0]
+        now = transition @ now + steered[:, :, np.newaxis]
+    states = states.swapaxes(0, 1)
+    return states.reshape(whole, size)[:count]

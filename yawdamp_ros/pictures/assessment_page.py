@@ -1,10 +1,7 @@
 """An assessment as one HTML page that needs nothing else: styles, script and data are in it."""
 
-import json
 import math
 from collections.abc import Sequence
-from importlib.resources import files
-from string import Template
 
 import numpy as np
 
@@ -23,6 +20,7 @@ from yawdamp_ros.analysis import (
 from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.pictures.page import page_text
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, Unit, Vehicle
 
 OVERHANG = 1.1
@@ -70,10 +68,7 @@ def assessment_page(vehicle: Vehicle, model: str, findings: Sequence[Finding]) -
         ],
         **_modes(linear_model(vehicle, found["least_damping_ratio"].speed, model)),
     }
-    template = Template(files("yawdamp_ros.pictures").joinpath("assessment.html").read_text(encoding="utf-8"))
-    # A name from a vehicle file must not end the script that holds it.
-    held = json.dumps(data).replace("<", "\\u003c")
-    return template.substitute(title=f"{vehicle.name}: lateral performance", data=held)
+    return page_text("assessment.html", f"{vehicle.name}: lateral performance", data)
 
 
 def _row(finding: Finding) -> dict[str, object]:

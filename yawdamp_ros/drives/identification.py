@@ -1,0 +1,268 @@
+"""Parameters of a vehicle from a recorded drive, by maximum likelihood."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from types import MappingProxyType
+
+from yawdamp_ros.drives.channel import QUANTITIES, Channel, quantity_of
+from yawdamp_ros.drives.comparison import ChannelComparison, compare
+from yawdamp_ros.drives.drive import Drive
+from yawdamp_ros.drives.errors import DriveError
+from yawdamp_ros.drives.likelihood import Fit, Series, maximise
+from yawdamp_ros.drives.matching import Match, matches
+from yawdamp_ros.drives.parameters import DEFAULT, Parameter, Subject, steered
+from yawdamp_ros.drives.prediction import Inputs, inputs_of, predict
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.vehicle import Vehicle, VehicleSource
+
+Predictor = Callable[[Vehicle, Inputs], Mapping[str, FloatArray]]
+"""Outputs of a vehicle under inputs, by name."""
+
+FITTED = ("yaw_rate", "lateral_acceleration", "articulation")
+"""Quantities that are fitted; a measured yaw drifts."""
+OFFSET_SPREAD: Mapping[str, float] = MappingProxyType(
+    {"yaw_rate": 0.01, "lateral_acceleration": 0.3, "articulation": 0.02}
+)
+"""Standard deviation that is expected of a sensor's offset, which is estimated, too."""
+FITTED_SHARE = 2.0 / 3.0
+"""Of the drive; the rest is kept to check the result on."""
+SETTLING = 5.0
+"""In s at the start that are left out: how the vehicle moved before is not known."""
+QUANTILE = 1.959963984540054
+"""Standard errors from the middle of a 95 % interval to its ends."""
+SENSOR_OFFSET = "offset of "
+"""Begins the name of what a sensor shows when there is nothing to be measured."""
+CLOSE = 0.98
+"""Correlation from which two parameters cannot be told apart."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter that was fitted.
+
+    Attributes
+    ----------
+    parameter : Parameter
+    value : float
+    low, high : float
+        Ends of the 95 % confidence interval.
+    """
+
+    parameter: Parameter
+    value: float
+    low: float
+    high: float
+
+    @property
+    def seen(self) -> bool:
+        """Whether the drive shows the parameter: the interval is narrower than what would matter."""
+        return self.high - self.low <= 2.0 * self.parameter.scale
+
+
+@dataclass(frozen=True)
+class Identification:
+    """What a drive says of a vehicle.
+
+    Attributes
+    ----------
+    estimates : tuple of Estimate
+        First those asked for, then ``offset of <output>`` of every sensor.
+    correlations : ndarray, shape (p, p)
+        Between the estimates.
+    fitted, checked : list of ChannelComparison
+        Model and measurement, less the sensors' offsets, on the part that was fitted and on the rest.
+    before : list of ChannelComparison
+        The same on the rest, with the parameters of the start.
+    noise_order : int
+        Order of the autoregression of the residuals.
+    overrides : list of str
+        Changes to the vehicle file that make it the identified vehicle.
+    notes : tuple of str
+        What was left out.
+    """
+
+    estimates: tuple[Estimate, ...]
+    correlations: FloatArray
+    fitted: list[ChannelComparison]
+    checked: list[ChannelComparison]
+    before: list[ChannelComparison]
+    noise_order: int
+    overrides: list[str]
+    notes: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Estimate of a parameter."""
+        return next(each for each in self.estimates if each.parameter.name == name)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the drive cannot tell."""
+        told = [
+            f"{each.parameter.name} cannot be seen in this drive: anything from {each.low:.4g} to "
+            f"{each.high:.4g} {each.parameter.unit}".rstrip()
+            for each in self.estimates
+            if not (each.seen or each.parameter.name.startswith(SENSOR_OFFSET))
+        ]
+        names = [each.parameter.name for each in self.estimates]
+        for row, name in enumerate(names):
+            alike = [
+                other
+                for column, other in enumerate(names)
+                if column > row and abs(self.correlations[row, column]) > CLOSE
+            ]
+            if alike and not name.startswith(SENSOR_OFFSET):
+                told.append(f"{name} cannot be told from {', '.join(alike)}: correlations above {CLOSE:g}")
+        return told
+
+
+def predictor_of(model: str) -> Predictor:
+    """Predictor of a model of `MODELS`.
+
+    Parameters
+    ----------
+    model : str
+    """
+    return partial(predict, model=model)
+
+
+def identify(  # noqa: PLR0913 - each is one setting of a fit
+    drive: Drive,
+    source: VehicleSource,
+    parameters: Sequence[str] = DEFAULT,
+    *,
+    speed: float | None = None,
+    predictor: Predictor = predict,
+    fitted_share: float = FITTED_SHARE,
+) -> Identification:
+    """Fit parameters of a vehicle to what was measured on a drive.
+
+    Each sensor's offset is estimated with them, with what is known of it (`OFFSET_SPREAD`). The residuals
+    are a vector autoregression, fitted in turn with the parameters, so that the intervals hold for
+    coloured noise, too. An interval is the wider one of the likelihood's and of one that holds whatever
+    the noise is.
+
+    Parameters
+    ----------
+    drive : Drive
+    source : VehicleSource
+        What the vehicle is read from.
+    parameters : sequence of str
+        As `Subject` takes them.
+    speed : float, optional
+        In m/s, where the drive does not tell; the vehicle's own unless given.
+    predictor : callable
+        The model.
+    fitted_share : float
+        Of the drive, from its start.
+
+    Returns
+    -------
+    Identification
+
+    Raises
+    ------
+    DriveError
+        If there is no such parameter, or nothing was measured that it could be fitted to.
+    VehicleError
+        If the vehicle is none, or a fit leaves the range of a key.
+    """
+    subject = Subject(source, parameters)
+    own = subject.vehicle.speed if speed is None else speed
+    inputs = inputs_of(drive, own)
+    matched, notes = matches(drive, subject.vehicle.unit_names)
+    chosen = [match for match in matched if quantity_of(match.output) in FITTED]
+    if not chosen:
+        message = f"{drive.source}: nothing measured to fit to; expected one of {', '.join(FITTED)}"
+        raise DriveError(message)
+    start, middle, end = _parts(drive.duration, fitted_share)
+
+    def outputs(values: Mapping[str, float]) -> Mapping[str, FloatArray]:
+        return predictor(subject.vehicle_with(values), steered(inputs, values))
+
+    series = [
+        Series(match.output, match.channel.times[kept], match.channel.values[kept])
+        for match in chosen
+        if (kept := (match.channel.times >= start) & (match.channel.times <= middle)).any()
+    ]
+    fit = maximise(
+        subject.parameters,
+        outputs,
+        inputs.times,
+        series,
+        [OFFSET_SPREAD[quantity_of(each.name)] for each in series],
+    )
+    values = {
+        each.name: each.value(at) for each, at in zip(subject.parameters, fit.coordinates, strict=False)
+    }
+    offsets = dict(zip([each.name for each in series], fit.coordinates[len(values) :], strict=True))
+    compared = partial(_compared, chosen, offsets, inputs.times)
+    found, first = outputs(values), outputs({each.name: each.start for each in subject.parameters})
+    return Identification(
+        estimates=_estimates(subject.parameters, series, fit),
+        correlations=fit.correlations,
+        fitted=compared(found, start, middle),
+        checked=compared(found, middle, end),
+        before=compared(first, middle, end),
+        noise_order=fit.noise_order,
+        overrides=subject.overrides(values),
+        notes=(*drive.notes, *notes),
+    )
+
+
+def _parts(duration: float, share: float) -> tuple[float, float, float]:
+    start = min(SETTLING, 0.2 * duration)
+    return start, start + share * (duration - start), duration
+
+
+def _compared(  # noqa: PLR0913, PLR0917 - what all three parts share comes first
+    chosen: Sequence[Match],
+    offsets: Mapping[str, float],
+    times: FloatArray,
+    outputs: Mapping[str, FloatArray],
+    start: float,
+    end: float,
+) -> list[ChannelComparison]:
+    if end <= start:
+        return []
+    parts = [
+        Match(match.output, _without(match.channel.window(start, end), offsets.get(match.output, 0.0), start))
+        for match in chosen
+    ]
+    return compare([part for part in parts if len(part.channel.times) > 20], times, outputs)  # noqa: PLR2004
+
+
+def _without(channel: Channel, offset: float, start: float) -> Channel:
+    return replace(channel, times=channel.times + start, values=channel.values - offset)
+
+
+def _estimates(parameters: Sequence[Parameter], series: Sequence[Series], fit: Fit) -> tuple[Estimate, ...]:
+    sensors = [
+        Parameter(
+            f"{SENSOR_OFFSET}{each.name}",
+            QUANTITIES[quantity_of(each.name)],
+            0.0,
+            OFFSET_SPREAD[quantity_of(each.name)],
+            positive=False,
+        )
+        for each in series
+    ]
+    estimates = [
+        Estimate(
+            parameter,
+            parameter.value(at),
+            parameter.value(at - QUANTILE * error),
+            parameter.value(at + QUANTILE * error),
+        )
+        for parameter, at, error in zip(
+            parameters, fit.coordinates.tolist(), fit.errors.tolist(), strict=False
+        )
+    ]
+    rest = slice(len(parameters), None)
+    estimates += [
+        Estimate(sensor, at, at - QUANTILE * error, at + QUANTILE * error)
+        for sensor, at, error in zip(
+            sensors, fit.coordinates[rest].tolist(), fit.errors[rest].tolist(), strict=True
+        )
+    ]
+    return tuple(estimates)

@@ -1,0 +1,144 @@
+"""What was simulated over what was measured, and what a fit found, as one HTML page."""
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+
+from yawdamp_ros.drives import ChannelComparison
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.pictures.page import page_text
+
+MOST_POINTS = 4000
+"""Of one curve; of a longer one every so many samples are drawn."""
+FIGURES = 5
+"""Significant, of a point."""
+HIGHEST_FREQUENCY = 5.0
+"""Of a coherence that is drawn, Hz."""
+
+DEFINITIONS: Mapping[str, str] = MappingProxyType(
+    {
+        "bias": "Mean of measured less simulated.",
+        "gain": "Slope of measured over simulated, both less their means, with the lag taken out.",
+        "lag": "Time by which the measured signal follows the simulated one, where they correlate best.",
+        "RMS error": "Root mean square of measured less simulated, bias included.",
+        "R2": "Share of the measured variance that the simulation explains as it is.",
+        "R2 max": "What a perfect model would reach: the variance that changes from sample to sample, as no "
+        "vehicle does, is taken for noise (by third differences).",
+        "coherence": "Share of the measured power at a frequency that is linear in the simulated signal, "
+        "by Welch's method.",
+    }
+)
+"""Words of the tables."""
+
+
+class PageTable(NamedTuple):
+    """A table of texts.
+
+    Attributes
+    ----------
+    title : str
+    columns : sequence of str
+    rows : sequence of sequence of str
+    """
+
+    title: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+def drive_page(
+    title: str,
+    subtitle: str,
+    tables: Sequence[PageTable],
+    notes: Sequence[str],
+    comparisons: Sequence[tuple[str, Sequence[ChannelComparison]]],
+) -> str:
+    """HTML text of a comparison or an identification.
+
+    Parameters
+    ----------
+    title, subtitle : str
+    tables : sequence of PageTable
+    notes : sequence of str
+    comparisons : sequence of (str, sequence of ChannelComparison)
+        Each part of the drive with its name; its curves lie over each other.
+
+    Returns
+    -------
+    str
+    """
+    data = {
+        "title": title,
+        "subtitle": subtitle,
+        "tables": [table._asdict() for table in tables],
+        "notes": list(notes),
+        "sections": [
+            {"title": name, "text": "", "charts": [chart for each in found for chart in _charts(each)]}
+            for name, found in comparisons
+            if found
+        ],
+        "definitions": list(DEFINITIONS.items()),
+    }
+    return page_text("drive.html", title, data)
+
+
+def _charts(found: ChannelComparison) -> list[dict[str, object]]:
+    every = -(-len(found.times) // MOST_POINTS)
+    times = _rounded(found.times[::every])
+    thinned = f" One sample in {every} is drawn." if every > 1 else ""
+    charts: list[dict[str, object]] = [
+        {
+            "wide": True,
+            "title": found.output.replace("_", " "),
+            "x_label": "time, s",
+            "y_label": found.unit,
+            "series": [
+                {"name": name, "xs": times, "ys": _rounded(values[::every]), "colour": colour}
+                for colour, (name, values) in enumerate(
+                    (("measured", found.measured), ("simulated", found.simulated))
+                )
+            ],
+            "caption": f"R2 {found.r_squared:.3f}, at most {found.attainable:.3f} with its noise of "
+            f"{found.noise:.3g} {found.unit}.{thinned}",
+        },
+        {
+            "title": f"{found.output.replace('_', ' ')}: measured less simulated",
+            "x_label": "time, s",
+            "y_label": found.unit,
+            "series": [
+                {
+                    "name": "error",
+                    "xs": times,
+                    "ys": _rounded((found.measured - found.simulated)[::every]),
+                    "colour": 6,
+                }
+            ],
+            "caption": f"RMS {found.rms_error:.3g} {found.unit}, mean {found.bias:.3g} {found.unit}",
+        },
+    ]
+    shown = found.frequencies <= HIGHEST_FREQUENCY
+    if shown.any():
+        charts.append(
+            {
+                "title": f"{found.output.replace('_', ' ')}: coherence",
+                "x_label": "frequency, Hz",
+                "y_label": "share of the measured power",
+                "series": [
+                    {
+                        "name": "coherence",
+                        "xs": _rounded(found.frequencies[shown]),
+                        "ys": _rounded(found.coherence[shown]),
+                        "colour": 2,
+                    }
+                ],
+                "caption": "",
+            }
+        )
+    return charts
+
+
+def _rounded(values: FloatArray) -> list[object]:
+    rounded: list[object] = [float(f"{value:.{FIGURES}g}") for value in np.asarray(values)]
+    return rounded
