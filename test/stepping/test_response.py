@@ -57,7 +57,27 @@ def test_speed_is_that_asked_for() -> None:
     assert response.x[-1, 0] == pytest.approx(10.0)
 
 
-@pytest.mark.parametrize("duration", [-1.0, float("nan"), float("inf")])
+@pytest.mark.parametrize("duration", [-1.0, float("nan"), float("inf"), 1e308, 1e10])
 def test_a_duration_that_is_none_is_refused(duration: float) -> None:
     with pytest.raises(SteppingError, match="duration: "):
         simulate(load_vehicle("interlink"), Sine(), duration)
+
+
+def test_an_array_is_steering_step_by_step() -> None:
+    steering = Sine()
+    angles = [steering(step / 1000) for step in range(2001)]
+    by_function = simulate(load_vehicle("interlink"), steering, 2.0)
+    for given in (angles, np.array(angles)):
+        by_array = simulate("interlink", given, 2.0)
+        np.testing.assert_array_equal(by_array.yaw_rate, by_function.yaw_rate)
+        np.testing.assert_array_equal(by_array.steering_angle, by_function.steering_angle)
+    without_end = simulate("interlink", angles[:-1], 2.0)
+    np.testing.assert_array_equal(without_end.yaw_rate[:-1], by_function.yaw_rate[:-1])
+
+
+@pytest.mark.parametrize("steering", [0.1, [0.1] * 10, np.zeros((2000, 1)), [np.nan] * 2000, "step", None])
+def test_steering_that_is_none_is_refused(steering: object) -> None:
+    with pytest.raises(
+        SteppingError, match=r"^steering: .*expected a function of time in s, or 2000 finite angles, one for"
+    ):
+        simulate("interlink", steering, 2.0)  # type: ignore[arg-type] - that is the mistake

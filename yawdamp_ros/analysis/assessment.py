@@ -9,6 +9,9 @@ from yawdamp_ros.analysis.measures import MEASURES, Measure
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.vehicle import Vehicle
 
+THRESHOLDS = (0.05, 1.5)
+"""Static rollover thresholds that a road vehicle can have [g]; trucks have 0.25 to 0.6."""
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -66,12 +69,13 @@ def assess(
     Raises
     ------
     AnalysisError
-        If the threshold is not positive.
+        If the threshold is none that a road vehicle can have.
     DynamicsError
         If there is no such model of this vehicle at that speed.
     """
-    if srt is not None and not 0.0 < srt < float("inf"):
-        message = f"srt: {srt}: expected a static rollover threshold in g, above 0"
+    if srt is not None and not THRESHOLDS[0] <= srt <= THRESHOLDS[1]:
+        low, high = THRESHOLDS
+        message = f"srt: {srt}: expected a static rollover threshold in g, {low:g} to {high:g} (35 % is 0.35)"
         raise AnalysisError(message)
     return tuple(_find(measure, vehicle, model, speed, srt) for measure in MEASURES.values())
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.dynamics import LinearModel, linear_model
-from yawdamp_ros.vehicle import load_vehicle
+from yawdamp_ros.vehicle import parse_vehicle, vehicle_text
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,13 @@ class Variation:
         Returns
         -------
         callable
-            It raises what `load_vehicle` and `linear_model` raise.
+            It raises what `parse_vehicle` and `linear_model` raise.
         """
+        text = vehicle_text(vehicle)
 
         def at(value: float) -> LinearModel:
             varied = [f"{key}={value!r}" for key in self.keys]
-            return linear_model(load_vehicle(vehicle, [*overrides, *varied]), model=model)
+            return linear_model(parse_vehicle(text, str(vehicle), [*overrides, *varied]), model=model)
 
         return at
 

@@ -4,9 +4,11 @@ import argparse
 import json
 import math
 from collections.abc import Sequence
+from pathlib import Path
 
 from yawdamp_ros.analysis import Finding, assess, failed
 from yawdamp_ros.cli.console import print_table
+from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     Parser,
@@ -16,12 +18,16 @@ from yawdamp_ros.cli.options import (
 )
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
+PAGES = (".html", ".htm")
 VERDICTS = {True: "pass", False: "FAIL", None: "n/a"}
 
 
 def main(argv: Sequence[str]) -> int:
     """Run the command; 1 if a level is failed."""
     options = _parser().parse_args(argv)
+    if options.html is not None and Path(options.html).suffix.lower() not in PAGES:
+        message = f"--html: {options.html}: expected a name ending in {' or '.join(PAGES)}"
+        raise UsageError(message)
     vehicle = chosen_vehicle(options)
     model = options.model or DEFAULT_MODEL
     findings = assess(vehicle, model, options.speed, options.srt)

@@ -1,12 +1,15 @@
 """Options that several commands share, so that they read alike in each."""
 
 import argparse
-from typing import NoReturn
+import sys
+from collections.abc import Sequence
+from typing import Any, NoReturn
 
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.dynamics import MODELS, LinearModel, linear_model
+from yawdamp_ros.errors import one_line
 from yawdamp_ros.manoeuvres import MANOEUVRES, Manoeuvre, make_manoeuvre
-from yawdamp_ros.vehicle import Vehicle, load_vehicle
+from yawdamp_ros.vehicle import Vehicle, examined_vehicle, vehicle_text
 
 DEFAULT_VEHICLE = "interlink"
 DEFAULT_MODEL = "consistent"
@@ -22,8 +25,25 @@ MANOEUVRE_SETTINGS = {
 }
 
 
+class _Once(argparse.Action):
+    """Store a value; refuse an option that is given again, for one of its values would be lost."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[Any] | None,
+        option_string: str | None = None,
+    ) -> None:
+        if isinstance(parser, Parser) and option_string is not None:
+            if self.dest in parser.given:
+                parser.error(f"{option_string}: given twice; expected it once")
+            parser.given.add(self.dest)
+        setattr(namespace, self.dest, values)
+
+
 class Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are one line each."""
+    """An argument parser whose errors are one line each, and whose options count once."""
 
     def __init__(self, name: str, description: str, example: str) -> None:
         super().__init__(
@@ -33,6 +53,9 @@ class Parser(argparse.ArgumentParser):
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
+        self.given: set[str] = set()
+        for stored in (None, "store"):
+            self.register("action", stored, _Once)
 
     def error(self, message: str) -> NoReturn:
         """Raise the complaint as a `UsageError`."""
@@ -55,9 +78,20 @@ def add_vehicle_options(parser: argparse.ArgumentParser) -> None:
 
 
 def overrides(options: argparse.Namespace) -> list[str]:
-    """Changes to the vehicle that --set and --speed ask for."""
-    speed = [] if options.speed is None else [f"speed={options.speed!r}"]
-    return [*options.set, *speed]
+    """Changes to the vehicle that --set and --speed ask for, of every key one.
+
+    Raises
+    ------
+    UsageError
+        If a key is set twice: one of its values would be lost.
+    """
+    changes = [*options.set, *([] if options.speed is None else [f"speed={options.speed!r}"])]
+    keys = [change.partition("=")[0] for change in changes]
+    for key in keys:
+        if keys.count(key) > 1:
+            message = f"--set: {key}: given twice; expected it once"
+            raise UsageError(message)
+    return changes
 
 
 def chosen_name(options: argparse.Namespace) -> str:
@@ -66,8 +100,12 @@ def chosen_name(options: argparse.Namespace) -> str:
 
 
 def chosen_vehicle(options: argparse.Namespace) -> Vehicle:
-    """Vehicle that the options name, with its overrides, at the speed they give."""
-    return load_vehicle(chosen_name(options), overrides(options))
+    """Vehicle that the options name, with its overrides, at the speed they give; doubts are warned of."""
+    name = chosen_name(options)
+    vehicle, doubts = examined_vehicle(vehicle_text(name), name, overrides(options))
+    for doubt in doubts:
+        print(one_line(f"warning: {name}: {doubt}"), file=sys.stderr)
+    return vehicle
 
 
 def chosen_model(options: argparse.Namespace) -> LinearModel:

@@ -14,6 +14,7 @@ from yawdamp_ros.cli.options import (
     add_vehicle_options,
     chosen_model,
     chosen_name,
+    chosen_vehicle,
     overrides,
 )
 from yawdamp_ros.dynamics import LinearModel
@@ -102,6 +103,7 @@ def _vary(options: argparse.Namespace) -> int:
         message = "--vary: not together with --output, --bode, --nyquist or --root-locus"
         raise UsageError(message)
     variation = parse_variation(options.vary)
+    chosen_vehicle(options)  # warns of what is doubtful about it, whatever varies
     models = variation.models(chosen_name(options), overrides(options), options.model or DEFAULT_MODEL)
     locus = eigenvalue_locus(models, variation.values, _progress)
     first = models(variation.values[0])

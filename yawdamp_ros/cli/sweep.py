@@ -23,6 +23,7 @@ from yawdamp_ros.cli.options import (
     Parser,
     add_format_option,
     add_vehicle_options,
+    chosen_vehicle,
     overrides,
 )
 from yawdamp_ros.dynamics.kinematics import FloatArray
@@ -111,6 +112,7 @@ def _plan(options: argparse.Namespace) -> Plan:
     if len({key for each in keys for key in each}) < sum(map(len, keys)):
         message = f"{' and '.join(','.join(each) for each in keys)}: expected every key once"
         raise UsageError(message)
+    chosen_vehicle(options)  # warns of what is doubtful about it, whatever varies
     study = Study(
         text=vehicle_text(vehicle),
         source=vehicle,

@@ -26,6 +26,8 @@ SETTINGS = tuple(dict.fromkeys(field.name for kind in MANOEUVRES.values() for fi
 
 _POSITIVE = frozenset({"frequency", "rise_time", "width", "final_frequency", "sweep_time"})
 _NOT_NEGATIVE = frozenset({"start", "cycles"})
+_LEAST, _LARGEST = 1e-9, 1e9
+"""Of all settings but the amplitude: what is beyond would overflow."""
 
 
 def make_manoeuvre(name: str, settings: Mapping[str, float]) -> Manoeuvre:
@@ -62,11 +64,11 @@ def make_manoeuvre(name: str, settings: Mapping[str, float]) -> Manoeuvre:
 
 def _check(setting: str, value: float) -> None:
     if setting in _POSITIVE:
-        valid, expected = value > 0.0, "a number above 0"
+        valid, expected = _LEAST <= value <= _LARGEST, f"a number above 0, from {_LEAST:g} to {_LARGEST:g}"
     elif setting in _NOT_NEGATIVE:
-        valid, expected = value >= 0.0, "a number, 0 or more"
+        valid, expected = 0.0 <= value <= _LARGEST, f"a number, 0 or more, up to {_LARGEST:g}"
     else:
         valid, expected = abs(value) <= math.pi / 2, "an angle in rad of at most pi/2"
-    if not (valid and math.isfinite(value)):
+    if not valid:
         message = f"{setting}: {value}: expected {expected}"
         raise ManoeuvreError(message)

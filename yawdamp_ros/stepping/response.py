@@ -1,10 +1,11 @@
 """Whole runs in memory, for notebooks, tables and files."""
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
@@ -13,7 +14,7 @@ from yawdamp_ros.stepping.propagation import Propagation, outputs_of, propagator
 from yawdamp_ros.stepping.sample import Sample
 from yawdamp_ros.stepping.stepper import Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
-from yawdamp_ros.vehicle import Vehicle
+from yawdamp_ros.vehicle import Vehicle, load_vehicle
 
 Steering = Callable[[float], float]
 """Road-wheel steer angle in rad at a time in s."""
@@ -150,8 +151,8 @@ def linear_response(
 
 
 def simulate(  # noqa: PLR0913 - each is one setting of a run
-    vehicle: Vehicle,
-    steering: Steering,
+    vehicle: Vehicle | str | Path,
+    steering: Steering | npt.ArrayLike,
     duration: float,
     *,
     step_size: float = 0.001,
@@ -159,13 +160,15 @@ def simulate(  # noqa: PLR0913 - each is one setting of a run
     speed: float | None = None,
     model: str = "consistent",
 ) -> Response:
-    """Response of a vehicle from rest to a steering function.
+    """Response of a vehicle from rest to steering.
 
     Parameters
     ----------
-    vehicle : Vehicle
-    steering : callable
-        Road-wheel steer angle in rad at a time in s, as the manoeuvres are.
+    vehicle : Vehicle, str or Path
+        A name or a path is loaded as `load_vehicle` does.
+    steering : callable or array_like, shape (k,)
+        Road-wheel steer angle in rad: at a time in s, as the manoeuvres are, or of every step of the
+        duration, from 0 s on; one more value is that from the end on.
     duration : float
         In s.
     step_size : float
@@ -184,13 +187,40 @@ def simulate(  # noqa: PLR0913 - each is one setting of a run
     Raises
     ------
     SteppingError
-        If the times do not fit together.
+        If the times do not fit together, or the steering is neither a function nor an angle for every step.
+    VehicleError
+        If there is no such vehicle.
     DynamicsError
         If there is no such model at that speed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> simulate("interlink", np.full(2000, 0.01), 2.0).yaw_rate.shape
+    (2001, 3)
     """
-    if not (math.isfinite(duration) and duration >= 0.0):
-        message = f"duration: {duration}: expected a time in s, 0 or more"
-        raise SteppingError(message)
+    if not isinstance(vehicle, Vehicle):
+        vehicle = load_vehicle(vehicle)
     grid = TimeGrid.of(step_size, step_size if sample_period is None else sample_period)
+    held = steering if callable(steering) else _held(steering, grid, duration)
     stepper = Stepper(linear_model(vehicle, speed, model), grid.step_size)
-    return Response.of(sample_run(stepper, grid, steering, duration), vehicle.unit_names, grid)
+    return Response.of(sample_run(stepper, grid, held, duration), vehicle.unit_names, grid)
+
+
+def _held(steering: npt.ArrayLike, grid: TimeGrid, duration: float) -> Steering:
+    """Steering function of angles given step by step."""
+    steps = grid.samples_in(duration) * grid.steps_per_sample
+    expected = (
+        f"expected a function of time in s, or {steps} finite angles, one for every step of "
+        f"{grid.step_size:g} s over {duration:g} s"
+    )
+    try:
+        angles = np.asarray(steering, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        message = f"steering: {type(steering).__name__}: {expected}"
+        raise SteppingError(message) from error
+    if angles.ndim != 1 or len(angles) not in {steps, steps + 1} or not np.isfinite(angles).all():
+        message = f"steering: an array of shape {angles.shape}: {expected}"
+        raise SteppingError(message)
+    last = len(angles) - 1
+    return lambda time: float(angles[min(round(time / grid.step_size), last)])

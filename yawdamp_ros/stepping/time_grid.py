@@ -1,6 +1,5 @@
 """Simulated time, counted in whole steps of whole nanoseconds."""
 
-import math
 from dataclasses import dataclass
 from typing import overload
 
@@ -12,6 +11,9 @@ from yawdamp_ros.stepping.errors import SteppingError
 
 SECOND = 1_000_000_000
 """Nanoseconds in a second."""
+
+LONGEST_TIME = 1e9
+"""In s, as for the node: beyond it a time is a slip of the pen."""
 
 
 def nanoseconds(seconds: float) -> int:
@@ -46,8 +48,8 @@ class TimeGrid:
             If the step is shorter than 1 us, or the period is not a whole number of steps.
         """
         for name, value in (("step_size", step_size), ("sample_period", sample_period)):
-            if not (math.isfinite(value) and value > 0.0):
-                message = f"{name}: {value}: expected a time in s above 0"
+            if not 0.0 < value <= LONGEST_TIME:
+                message = f"{name}: {value}: expected a time in s above 0, at most {LONGEST_TIME:g}"
                 raise SteppingError(message)
         step_ns, period_ns = nanoseconds(step_size), nanoseconds(sample_period)
         if step_ns < 1000:  # noqa: PLR2004 - a microsecond
@@ -84,5 +86,14 @@ class TimeGrid:
         return step * self.step_ns / SECOND
 
     def samples_in(self, duration: float) -> int:
-        """Whole sample periods in a duration given in s."""
+        """Whole sample periods in a duration given in s.
+
+        Raises
+        ------
+        SteppingError
+            If the duration is none.
+        """
+        if not 0.0 <= duration <= LONGEST_TIME:
+            message = f"duration: {duration}: expected a time in s, 0 to {LONGEST_TIME:g}"
+            raise SteppingError(message)
         return nanoseconds(duration) // self.period_ns

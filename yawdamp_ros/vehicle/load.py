@@ -1,5 +1,6 @@
 """Vehicle files: read, overridden, checked, and turned into a `Vehicle`."""
 
+import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -13,6 +14,7 @@ from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.loads import added_axle_loads, loaded
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
+from yawdamp_ros.vehicle.plausibility import check_plausible, warning_lines
 from yawdamp_ros.vehicle.tyres import fancher_stiffness
 
 LONGEST_WHEELBASE = 30.0
@@ -65,10 +67,48 @@ def load_vehicle(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicle:
     Raises
     ------
     VehicleError
-        If there is no such vehicle, or it is not a valid one; the message names file, key, value and
-        what was expected.
+        If there is no such vehicle, or it is not a valid one, or no vehicle can be like it; the message names
+        file, key, value and what was expected.
+
+    Warns
+    -----
+    UserWarning
+        If a number of a file is hard to believe.
     """
-    return parse_vehicle(vehicle_text(vehicle), str(vehicle), overrides)
+    loaded, doubts = examined_vehicle(vehicle_text(vehicle), str(vehicle), overrides)
+    if str(vehicle) not in builtin_vehicles():
+        for doubt in doubts:
+            warnings.warn(f"{vehicle}: {doubt}", stacklevel=2)
+    return loaded
+
+
+def examined_vehicle(
+    text: str, source: str, overrides: Sequence[str] = ()
+) -> tuple[Vehicle, tuple[str, ...]]:
+    """Turn the text of a vehicle file into a `Vehicle`, and say what about it is hard to believe.
+
+    Parameters
+    ----------
+    text, source, overrides
+        As for `parse_vehicle`.
+
+    Returns
+    -------
+    Vehicle
+    tuple of str
+        A line for each suspicion; of a builtin vehicle those alone that overrides bring in.
+
+    Raises
+    ------
+    VehicleError
+        As `parse_vehicle`, and if no vehicle can be like it.
+    """
+    vehicle = parse_vehicle(text, source, overrides)
+    found = check_plausible(vehicle, source)
+    if found and _is_builtin(text, source):
+        known = {suspicion.key for suspicion in check_plausible(parse_vehicle(text, source), source)}
+        found = tuple(suspicion for suspicion in found if suspicion.key not in known)
+    return vehicle, tuple(warning_lines(found))
 
 
 def vehicle_text(vehicle: str | Path) -> str:
@@ -214,13 +254,22 @@ def _set(data: Any, key: str, value: Any, source: str) -> None:  # noqa: ANN401
     node = data
     try:
         for part in parents:
-            node = node[int(part)] if isinstance(node, list) else node[part]
+            node = node[_index(part, key, source)] if isinstance(node, list) else node[part]
         if isinstance(node, list):
-            node[int(last)] = value
+            node[_index(last, key, source)] = value
         else:
             node[last] = value
+    except VehicleError:
+        raise
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise VehicleError(source, key, "no such key to set") from error
+
+
+def _index(part: str, key: str, source: str) -> int:
+    index = int(part)
+    if index < 0:  # Python would count it from the end
+        raise VehicleError(source, key, f"{index}: expected an index, 0 or more")
+    return index
 
 
 def _build(data: dict[str, Any], source: str) -> Vehicle:
