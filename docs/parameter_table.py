@@ -1,13 +1,15 @@
-"""Write the parameters of the node, as declared, into the README and config/sim.yaml: `make parameters`."""
+"""Write parameters and outputs, as declared, into the README and config/sim.yaml: `make parameters`."""
 
 import math
 import sys
 from pathlib import Path
 
+from yawdamp_ros.runs.outputs import OUTPUTS, Of
 from yawdamp_ros.simulation.settings import PARAMETERS, SimParameters
 
 ROOT = Path(__file__).parents[1]
 HEAD = "| parameter | default | |\n|---|---|---|\n"
+OUTPUT_HEAD = "| out | type | |\n|---|---|---|\n"
 FILE_HEAD = """\
 # Parameters of the simulator node, with their defaults:
 #   ros2 run yawdamp_ros sim --ros-args --params-file sim.yaml
@@ -18,10 +20,25 @@ yawdamp_sim:
 
 
 def readme(text: str) -> str:
-    """README with its table of parameters renewed."""
+    """README with its tables of parameters and outputs renewed."""
     before, _, rest = text.partition(HEAD)
     after = rest.partition("\n\n")[2]
-    return f"{before}{table()}\n\n{after}"
+    text = f"{before}{table()}\n\n{after}"
+    before, _, rest = text.partition(OUTPUT_HEAD)
+    after = rest.partition("| `/diagnostics` |")[2]
+    return f"{before}{output_table()}| `/diagnostics` |{after}"
+
+
+def output_table() -> str:
+    """Table of the outputs of a sample in Markdown; a line each."""
+    rows = []
+    for output in OUTPUTS:
+        if output.type_name:
+            names = {Of.RUN: "{}", Of.UNIT: "<unit>/{}", Of.JOINT: "{}_<joint>"}
+            described = ", ".join(filter(None, [output.description, output.unit.replace("^2", "²")]))
+            kind = output.type_name.replace("/msg/", "/")
+            rows.append(f"| `{names[output.of].format(output.name)}` | {kind} | {described} |\n")
+    return OUTPUT_HEAD + "".join(rows)
 
 
 def table() -> str:

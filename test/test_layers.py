@@ -27,8 +27,8 @@ def loaded_by(code: str, *, without_ros: bool = False) -> subprocess.CompletedPr
         "import yawdamp_ros",
         "from yawdamp_ros import load_vehicle, linear_model, simulate",
         "import yawdamp_ros.vehicle, yawdamp_ros.dynamics, yawdamp_ros.stepping",
-        "import yawdamp_ros.manoeuvres, yawdamp_ros.analysis, yawdamp_ros.logs",
-        "import yawdamp_ros.__main__, yawdamp_ros.cli.simulate",
+        "import yawdamp_ros.manoeuvres, yawdamp_ros.simulation, yawdamp_ros.analysis, yawdamp_ros.logs",
+        "import yawdamp_ros.__main__, yawdamp_ros.cli.simulate, yawdamp_ros.runs.outputs",
     ],
 )
 def test_no_ros_module_is_imported(code: str) -> None:

@@ -11,7 +11,6 @@ from yawdamp_ros.share import share_directory
 
 CONFIG = share_directory() / "config"
 FIELDS = {
-    "/steering": {"data"},
     **{topic: set(kind.get_fields_and_field_types()) for topic, kind in OUTPUTS.items()},
 }
 
@@ -30,7 +29,8 @@ def test_the_plotjuggler_layout_shows_what_there_is() -> None:
     root = ET.parse(CONFIG / "plotjuggler_layout.xml").getroot()  # noqa: S314 - our own file
     curves = [curve.attrib["name"] for curve in root.iter("curve")]
     assert len(curves) > 10
-    joints = {"/joint_states/articulation_1/position", "/joint_states/articulation_2/position"}
+    names = ("steering", "articulation_1", "articulation_2")
+    joints = {f"/joint_states/{name}/position" for name in names}
     for curve in curves:
         topic, _, field = curve.rpartition("/")
         assert curve in joints or field in FIELDS[topic]

@@ -20,9 +20,9 @@ from yawdamp_ros.vehicle import builtin_vehicles, parse_vehicle
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 
 
-def test_the_table_of_parameters_is_that_of_the_declarations() -> None:
+def test_the_tables_of_parameters_and_outputs_are_those_of_the_declarations() -> None:
     assert parameter_table.readme(README) == README
-    assert README.count(parameter_table.HEAD) == 1
+    assert README.count(parameter_table.HEAD) == README.count(parameter_table.OUTPUT_HEAD) == 1
 
 
 def flat(parameters: dict[str, Any], prefix: str = "") -> dict[str, Any]:

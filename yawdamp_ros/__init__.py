@@ -9,7 +9,7 @@ from yawdamp_ros.lazy import load_on_use
 
 if TYPE_CHECKING:
     from yawdamp_ros.dynamics import linear_model
-    from yawdamp_ros.stepping import simulate
+    from yawdamp_ros.simulation import simulate
     from yawdamp_ros.vehicle import load_vehicle
 
 __all__ = ["linear_model", "load_vehicle", "simulate"]
@@ -18,7 +18,7 @@ __getattr__ = load_on_use(
     __name__,
     {
         "yawdamp_ros.dynamics": ("linear_model",),
-        "yawdamp_ros.stepping": ("simulate",),
+        "yawdamp_ros.simulation": ("simulate",),
         "yawdamp_ros.vehicle": ("load_vehicle",),
     },
 )

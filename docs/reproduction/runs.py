@@ -7,9 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 from yawdamp_ros import linear_model, load_vehicle, simulate
+from yawdamp_ros.dynamics import split_outputs
 from yawdamp_ros.manoeuvres import Chirp, Manoeuvre, Sine, Step
-from yawdamp_ros.stepping import Response, Stepper, TimeGrid
-from yawdamp_ros.stepping.response import sample_run
+from yawdamp_ros.stepping import Response, TimeGrid, linear_response
 
 MODELS = ("published", "consistent")
 SINE = Sine(amplitude=0.1, frequency=1.5 / (2.0 * np.pi))
@@ -71,9 +71,11 @@ def lateral_velocity(case: str) -> npt.NDArray[np.float64]:
     # By the linear model, as a response holds none and its path follows the true geometry of the hitches.
     chosen = CASES[case]
     grid = TimeGrid.of(0.001, chosen.sample_period)
-    stepper = Stepper(linear_model(load_vehicle(chosen.vehicle), chosen.speed), grid.step_size)
-    samples = sample_run(stepper, grid, chosen.manoeuvre, chosen.duration)
-    return np.vstack([sample.lateral_velocity for sample in samples])
+    model = linear_model(load_vehicle(chosen.vehicle), chosen.speed)
+    steps = grid.samples_in(chosen.duration) * grid.steps_per_sample
+    angles = np.array([chosen.manoeuvre(grid.seconds(step)) for step in range(steps + 1)])
+    _, outputs = linear_response(model, angles, grid.step_size)
+    return split_outputs(outputs[:: grid.steps_per_sample], len(model.vehicle.units)).lateral_velocity
 
 
 def last_peaks(run: Response, period: float) -> npt.NDArray[np.float64]:

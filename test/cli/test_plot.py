@@ -8,7 +8,7 @@ import pytest
 
 from yawdamp_ros.cli import run
 from yawdamp_ros.manoeuvres import LaneChange
-from yawdamp_ros.stepping import simulate
+from yawdamp_ros.simulation import simulate
 from yawdamp_ros.vehicle import load_vehicle
 
 

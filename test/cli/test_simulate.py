@@ -66,7 +66,7 @@ def test_the_steering_in_a_run_is_logged_at_the_step_where_it_took_effect(tmp_pa
         steering = [
             (time, reader.deserialize(data, connection.msgtype).data)
             for connection, time, data in reader.messages()
-            if connection.topic == "/steering"
+            if connection.topic == "/steering_applied"
         ]
     assert steering == [(0, 0.0), (1_000_000_000, 0.1), (1_500_000_000, 0.0)]
 

@@ -33,7 +33,7 @@ def test_the_npm_readers_decode_every_message(tmp_path: Path) -> None:
     assert found["profile"] == "ros2"
     topics = found["topics"]
     assert {name: topic["count"] for name, topic in topics.items()} == {
-        "/steering": 1,
+        "/steering_applied": 1,
         "/speed": 1,
         "/joint_states": 201,
         **{

@@ -9,9 +9,9 @@ import numpy as np
 
 from yawdamp_ros.errors import YawdampError
 from yawdamp_ros.logs import read_steering_csv, read_steering_mcap
-from yawdamp_ros.logs.response_reader import read_response_csv
-from yawdamp_ros.logs.response_recording import read_response_recording
-from yawdamp_ros.nodes.resimulation import Resimulation
+from yawdamp_ros.runs.resimulation import Resimulation
+from yawdamp_ros.runs.response_reader import read_response_csv
+from yawdamp_ros.runs.response_recording import read_response_recording
 from yawdamp_ros.vehicle import load_vehicle
 
 CORPUS = Path(__file__).parent / "corpus"

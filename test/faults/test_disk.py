@@ -18,7 +18,8 @@ from std_srvs.srv import SetBool
 from graph import Graph, outcome, stop, until, values
 from runs import PERIOD, recorded, run_directory
 from yawdamp_ros.cli import run
-from yawdamp_ros.logs import LogError, McapLog, RunWriter, make_run_directory
+from yawdamp_ros.logs import LogError, McapLog
+from yawdamp_ros.runs import RunWriter, make_run_directory
 
 pytestmark = pytest.mark.graph
 
@@ -143,7 +144,7 @@ def test_a_place_that_cannot_be_recorded_to_is_named_with_the_reason(graph: Grap
         (small_disk / "run", "No space left on device"),
     ):
         with pytest.raises(LogError, match=f"{place}: cannot be recorded to: {reason}"):
-            RunWriter(make_run_directory(place, numbered=False), [], {}, {})
+            RunWriter(make_run_directory(place, numbered=False), {}, {}, {})
     subprocess.run(["mount", "-o", "remount,ro", str(small_disk)], check=True)
     status, _, errors = outcome(graph.command("sim", "--output", str(small_disk / "other")))
     assert (status, errors.count("\n")) == (2, 1)

@@ -96,7 +96,7 @@ def test_ten_thousand_commands_a_second_steer_and_hold_nothing_up(graph: Graph) 
     until(lambda: graph.messages("/joint_states")[-1].position[0] == 0.2, "the last command")
     in_good_order(graph, process)
     flood.communicate()
-    steering = [message.data for _, message in recorded(run_directory(graph.directory))["/steering"]]
+    steering = [message.data for _, message in recorded(run_directory(graph.directory))["/steering_applied"]]
     assert len(steering) > 20
     assert (np.diff(steering[:-1]) > 0.0).all()
 

@@ -105,9 +105,9 @@ def test_any_value_of_the_start_is_taken_or_refused_in_one_line(
         ({"steps_per_sample": "1" + "0" * 18}, "1000000000000000000 a sample"),
         ({"initial": "[" * 100_000}, "maximum recursion depth"),
         ({"vehicle_overrides": "[3]"}, "not a run of this package"),
-        ({"parameters": "[]"}, "not a run of this package"),
+        ({"parameters": "[3]"}, "not a run of this package"),
         ({"parameters": '{"noise_seed": -1, "yaw_stddev": 1.0}'}, "cannot be run again"),
-        ({"output_topics": "{}"}, "cannot be run again"),
+        ({"output_topics": "{}"}, "not a run of this package"),
         (
             {"vehicle.yaml": "name: !!python/object/apply:os.system ['touch executed']"},
             "not determine a constructor",
@@ -185,5 +185,5 @@ def test_any_bytes_of_a_message_are_a_difference_or_refused(
 def test_a_steering_that_is_no_number_is_a_difference_or_refused(
     run_file: Path, target: Path, value: float
 ) -> None:
-    rewritten(run_file, target, {}, {"/steering": CDR + struct.pack("<d", value)})
+    rewritten(run_file, target, {}, {"/steering_applied": CDR + struct.pack("<d", value)})
     accepted_or_refused("resimulate", target, statuses=(1,))

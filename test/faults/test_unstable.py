@@ -32,7 +32,7 @@ def test_an_unstable_vehicle_is_warned_of_and_stopped_before_it_means_nothing(
     assert status == 1
     assert "is unstable at 22.2222 m/s" in errors
     assert "doubles every" in errors
-    assert "where the linear model means nothing" in output
+    assert "where the model means nothing" in output
     assert "Traceback" not in errors
     found = run_directory(graph.directory)
     messages = recorded(found)
@@ -50,5 +50,5 @@ def test_a_limit_of_ones_own_stops_a_stable_vehicle_too(graph: Graph) -> None:
     limit = ["--ros-args", "-p", "max_lateral_acceleration:=3.0"]
     status, output, _ = outcome(graph.command("sim", "--manoeuvre", "lane_change", *limit))
     assert status == 1
-    assert "past 3, where the linear model means nothing" in output
+    assert "past 3, where the model means nothing" in output
     assert max(abs(message.linear_acceleration.y) for message in graph.messages("/truck/imu")) <= 3.0

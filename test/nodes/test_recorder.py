@@ -2,16 +2,17 @@ from pathlib import Path
 
 import pytest
 
-from yawdamp_ros.logs import Channel, LogError, McapLog, RunWriter
+from yawdamp_ros.logs import LogError, McapLog
 from yawdamp_ros.nodes.recorder import Recorder
 from yawdamp_ros.nodes.states import RecorderState
+from yawdamp_ros.runs import Channel, RunWriter
 
-MESSAGE = (0, 1_000, bytes(12))
+MESSAGE = ("value", 1_000, bytes(12))
 
 
 def recorder() -> Recorder:
     def open_run(directory: Path) -> RunWriter:
-        return RunWriter(directory, [Channel("/value", "std_msgs/msg/Float64")], {}, {})
+        return RunWriter(directory, {"value": Channel("/value", "std_msgs/msg/Float64")}, {}, {})
 
     return Recorder(open_run)
 

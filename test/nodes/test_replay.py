@@ -99,11 +99,11 @@ def check_run_of_a_log(graph: Graph, log_angles: list[float]) -> dict[str, list[
     for topic in OUTPUTS:
         times = [log_time for log_time, _ in messages[topic]]
         assert np.diff(times).tolist() == [PERIOD] * (count - 1)
-    applied = [message.data for _, message in messages["/steering"]]
+    applied = [message.data for _, message in messages["/steering_applied"]]
     # Of samples between two steps of the node's timer the newest wins, so applied is a part of the log.
     rest = iter([0.0, *log_angles])
     assert all(angle in rest for angle in applied)
-    samples = stepped_again(messages["/steering"], count)
+    samples = stepped_again(messages["/steering_applied"], count)
     assert [message.data for _, message in messages["/trailer_2/yaw_rate"]] == [
         sample.yaw_rate[2] for sample in samples
     ]
@@ -116,7 +116,7 @@ def test_a_log_drives_the_node(graph: Graph, log: Path) -> None:
     status, _, errors = stop(node)
     assert status == 0, errors
     messages = check_run_of_a_log(graph, read_steering_csv(log).angles)
-    assert len(messages["/steering"]) > 10  # how many depends on how busy the machine is
+    assert len(messages["/steering_applied"]) > 10  # how many depends on how busy the machine is
 
 
 @pytest.mark.timeout(180)

@@ -18,6 +18,7 @@ from runs import OUTPUTS, PERIOD, UNITS, check_all_came, recorded, run_directory
 from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.manoeuvres import Sine
 from yawdamp_ros.nodes.graph import join, ros_graph, spin
+from yawdamp_ros.nodes.server import Server
 from yawdamp_ros.nodes.sim import Simulator
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.share import share_directory
@@ -94,9 +95,11 @@ def test_steering_from_the_graph_is_applied_recorded_and_stepped_as_recorded(gra
     run = run_directory(graph.directory)
     messages = recorded(run)
     count = len(messages["/truck/imu"])
-    samples = stepped_again(messages["/steering"], count)
-    assert max(abs(message.data) for _, message in messages["/steering"]) == pytest.approx(0.05, abs=1e-4)
-    assert len({message.data for _, message in messages["/steering"]}) > 50
+    samples = stepped_again(messages["/steering_applied"], count)
+    assert max(abs(message.data) for _, message in messages["/steering_applied"]) == pytest.approx(
+        0.05, abs=1e-4
+    )
+    assert len({message.data for _, message in messages["/steering_applied"]}) > 50
     for index, unit in enumerate(UNITS):
         assert [message.data for _, message in messages[f"/{unit}/lateral_acceleration"]] == [
             sample.lateral_acceleration[index] for sample in samples
@@ -127,7 +130,7 @@ def test_bad_commands_are_refused_or_clamped_and_said(graph: Graph) -> None:
     assert status == 0
     assert "rejected, not a finite number" in errors
     assert "outside the limits, clamped" in errors
-    applied = [message.data for _, message in recorded(run_directory(graph.directory))["/steering"]]
+    applied = [message.data for _, message in recorded(run_directory(graph.directory))["/steering_applied"]]
     assert applied == [0.0, 0.1, -0.3]
 
 
@@ -142,10 +145,10 @@ def test_a_command_that_comes_before_the_first_sample_acts_from_the_first_step_o
         graph.steering_publisher().publish(Float64(data=0.1))
         time.sleep(SETTLING)  # the command has come
         simulator.publish_first()
-        simulator.start()
-        assert spin(node, request, lambda: simulator.samples_published > 5, lambda: None)
+        Server(node, simulator)
+        assert spin(node, request, lambda: simulator.run.samples > 5, lambda: None)
         simulator.close()
-    (start, at_rest), (then, steered) = recorded(path)["/steering"]
+    (start, at_rest), (then, steered) = recorded(path)["/steering_applied"]
     assert (at_rest.data, steered.data, then - start) == (0.0, 0.1, 1_000_000)
 
 
@@ -163,7 +166,7 @@ def test_silence_holds_or_zeroes_as_asked(graph: Graph, reaction: str, last: flo
     until(lambda: len(graph.received["/joint_states"]) > heard + 50, "half a second more")
     assert graph.messages("/joint_states")[-1].position[0] == last
     assert stop(process)[0] == 0
-    steering = recorded(run_directory(graph.directory))["/steering"]
+    steering = recorded(run_directory(graph.directory))["/steering_applied"]
     if reaction == "zero":
         (_, (on, _), (off, _)) = steering
         # The command is in force one step after the last it could not change any more.
@@ -217,7 +220,7 @@ def test_a_namespace_moves_every_topic(graph: Graph) -> None:
     assert outside <= {"/rosout", "/parameter_events", "/diagnostics"}
     assert stop(process)[0] == 0
     assert set(recorded(run_directory(graph.directory))) == {
-        f"/left{topic}" for topic in ["/steering", "/speed", *OUTPUTS]
+        f"/left{topic}" for topic in ["/steering_applied", "/speed", *OUTPUTS]
     }
 
 
@@ -249,7 +252,10 @@ def test_what_is_not_wanted_is_neither_published_nor_recorded(graph: Graph) -> N
         (["--ros-args", "-p", "speed:=1e-300"], "speed: 1e-300: expected 0, or 0.01 to 70 m/s"),
         (["--no-record", "--output", "run"], "--output: there is no recording with --no-record"),
         (["--ros-args", "-p", "step_size:=0.003"], "step_size: 0.003 s: expected a whole number of steps"),
-        (["--ros-args", "-p", "amplitude:=0.1"], "parameter manoeuvre.amplitude: manoeuvre.name is none"),
+        (
+            ["--ros-args", "-p", "manoeuvre.amplitude:=0.1"],
+            "parameter manoeuvre.amplitude: manoeuvre.name is none",
+        ),
         (["--ros-args", "-p", "vehicle_overrides:=['units.1.mass=0']"], "units.1.mass: 0: expected a mass"),
     ],
 )

@@ -50,7 +50,7 @@ def test_a_joint_state_steers_and_a_stamp_that_is_not_of_now_is_refused(graph: G
     assert status == 0
     assert "rejected, its time stamp is too far from now" in errors
     assert "no joint 'wheel' with a position" in errors
-    steering = recorded(run_directory(graph.directory))["/steering"]
+    steering = recorded(run_directory(graph.directory))["/steering_applied"]
     assert [message.data for _, message in steering] == [0.0, 0.1, -0.05]
 
 
@@ -98,7 +98,7 @@ def test_the_actuator_lags_behind_the_command(graph: Graph) -> None:
     graph.steering_publisher().publish(Float64(data=0.2))
     until(lambda: abs(steering_angle(graph) - 0.2) < 1e-4, "the command to be reached")
     assert stop(process)[0] == 0
-    steering = recorded(run_directory(graph.directory))["/steering"]
+    steering = recorded(run_directory(graph.directory))["/steering_applied"]
     angles = np.array([message.data for _, message in steering])
     assert (np.diff(angles) > 0.0).all()
     assert np.diff(angles).max() <= 0.0005 + 1e-12

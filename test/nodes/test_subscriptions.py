@@ -4,25 +4,28 @@ from std_msgs.msg import Float64
 
 from graph import Graph, until
 from yawdamp_ros.nodes.subscriptions import SteeringSubscription
-from yawdamp_ros.stepping import SteeringInput, Verdict
+from yawdamp_ros.simulation import Commands, SimParameters, make_motion
+from yawdamp_ros.stepping import TimeGrid, Verdict
+from yawdamp_ros.vehicle import load_vehicle
 
 pytestmark = pytest.mark.graph
 
 
 def test_commands_that_have_arrived_act_before_the_executor_comes_to_them(graph: Graph) -> None:
     unspun = rclpy.create_node("unspun", context=graph.node.context)
-    target = SteeringInput(ratio=1.0, limit=1.0, timeout_steps=10, zero_on_timeout=False, max_age=0.0)
-    subscription = SteeringSubscription(
-        unspun, "std_msgs/msg/Float64", "", target, step=lambda: 7, now=lambda: 0
-    )
+    motion = make_motion(load_vehicle("interlink"), "consistent", None, 0.001)
+    target = Commands(SimParameters(), TimeGrid.of(0.001, 0.01), motion)
+    subscription = SteeringSubscription(unspun, "std_msgs/msg/Float64", "", target, now=lambda: 0)
     publisher = graph.steering_publisher()
     for angle in (0.1, 0.2):
         publisher.publish(Float64(data=angle))
 
     def newest_acts() -> bool:
         subscription.take()
-        return target.at(7) == 0.2
+        return target.steering_input.at(1) == 0.2
 
     until(newest_acts, "the commands")
-    assert target.counts[Verdict.ACCEPTED] == 2
+    assert target.steering_input.counts[Verdict.ACCEPTED] == 2
+    received = [(command.step, command.angle, command.message.data) for command in target.received()]
+    assert received == [(1, 0.1, 0.1), (1, 0.2, 0.2)]
     unspun.destroy_node()

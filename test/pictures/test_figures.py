@@ -12,7 +12,7 @@ from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.pictures import PictureError, save
 from yawdamp_ros.pictures.eigenvalues import locus_figure
 from yawdamp_ros.pictures.runs import runs_figure
-from yawdamp_ros.stepping import simulate
+from yawdamp_ros.simulation import simulate
 from yawdamp_ros.vehicle import load_vehicle
 
 INTERLINK = load_vehicle("interlink")

@@ -10,7 +10,8 @@ from browser import CHROMIUM, QUIET, needs_browser
 from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.pictures import runs_page
 from yawdamp_ros.pictures.run_panels import run_panels
-from yawdamp_ros.stepping import Response, simulate
+from yawdamp_ros.simulation import simulate
+from yawdamp_ros.stepping import Response
 from yawdamp_ros.vehicle import load_vehicle
 
 INTERLINK, CAR = (

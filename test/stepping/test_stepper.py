@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
-from yawdamp_ros.stepping import Sample, Snapshot, Stepper, SteppingError
+from yawdamp_ros.stepping import Sample, Stepper
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle
 
 
@@ -126,7 +126,7 @@ def test_a_steady_turn_is_a_circle_of_speed_over_yaw_rate() -> None:
     design = np.column_stack([2.0 * points, np.ones(len(points))])
     *centre, _ = np.linalg.lstsq(design, (points**2).sum(axis=1), rcond=None)[0]
     radii = np.hypot(*(points - centre).T)
-    speed_over_ground = math.hypot(sample.speed, sample.lateral_velocity[-1, 0])
+    speed_over_ground = math.hypot(sample.velocity[-1, 0].real, sample.lateral_velocity[-1, 0])
     np.testing.assert_allclose(radii, speed_over_ground / sample.yaw_rate[-1, 0], rtol=1e-5)
 
 
@@ -149,7 +149,7 @@ def test_how_a_run_is_cut_does_not_change_a_bit(vehicle: Vehicle, cuts: list[int
     for steps in cuts:
         part = run(cut, steps, angle)
         for field in Sample._fields:
-            if field not in {"speed", "inputs"}:
+            if field not in {"inputs", "extra", "events", "commands"}:
                 np.testing.assert_array_equal(getattr(part, field), getattr(every, field)[cut.step - 1])
     np.testing.assert_array_equal(whole.state, cut.state)
 
@@ -188,7 +188,7 @@ def test_another_speed_is_another_model_with_the_same_state() -> None:
     sample = run(stepper, 20_000, lambda _: 0.05)
     settled = run(Stepper(linear_model(vehicle, 15.0), 0.001), 20_000, lambda _: 0.05)
     np.testing.assert_allclose(sample.yaw_rate, settled.yaw_rate, rtol=1e-9)
-    assert sample.speed == 15.0
+    assert sample.velocity[0].real == 15.0
     assert (500, "speed", 15.0) in sample.inputs
 
 
@@ -249,10 +249,10 @@ def test_yaw_is_exact_after_a_million_turns() -> None:
     steps, turns = 4000, 1_000_000
     fresh, turned = Stepper(model, 0.01), Stepper(model, 0.01)
     # A million turns and what their number as a double leaves over: 2 pi is no double.
-    start = fresh.snapshot()
+    start = dict(fresh.snapshot())
     whole = Fraction("6.283185307179586476925286766559005768394") * turns
     yaw = float(whole)
-    turned.restore(start._replace(yaw=yaw, yaw_remainder=float(whole - Fraction(yaw)), sampled=False))
+    turned.restore(start | {"yaw": yaw, "yaw_remainder": float(whole - Fraction(yaw)), "sampled": False})
     one, other = (run(stepper, steps, lambda _: 0.03) for stepper in (fresh, turned))
     assert one.yaw[0] > 3.0
     np.testing.assert_allclose(other.heading, one.heading, rtol=0.0, atol=1e-13)
@@ -275,11 +275,10 @@ def test_a_changing_speed_is_followed_as_by_matrices_of_every_step() -> None:
         np.testing.assert_allclose(stepper.state, state, rtol=0.0, atol=1e-9)
 
 
-def test_an_unstable_motion_ends_before_its_numbers_do() -> None:
-    skidding = ["units.0.axles.1.cornering_stiffness=1", "units.0.axles.2.cornering_stiffness=1"]
+def test_an_unstable_motion_ends_in_no_numbers_without_a_word() -> None:
+    skidding = [f"units.0.axles.{axle}.cornering_stiffness=50000" for axle in (1, 2)]
     stepper = Stepper(linear_model(load_vehicle("interlink", skidding)), 1.0)
-    with pytest.raises(SteppingError, match=r"interlink: unstable, beyond all numbers at 8. s"):
-        run(stepper, 1000, lambda _: 0.1)
+    assert np.isnan(run(stepper, 1000, lambda _: 0.1).heading).all()
 
 
 @pytest.mark.parametrize("articulation", [0.0, 0.4, 0.9, -1.3])
@@ -287,7 +286,8 @@ def test_velocity_of_every_unit_is_the_rate_of_its_pose_at_any_articulation(arti
     model, step = linear_model(load_vehicle("interlink"), 3.0), 1e-6
     stepper = Stepper(model, step)
     state = (0.3, 0.4, 0.1, -0.5, articulation, 0.5 * articulation)
-    stepper.restore(Snapshot(0, 3.0, 0.0, state, 0.7, 0.0, 3.0, -2.0, sampled=False))
+    start = {"state": state, "yaw": 0.7, "x": 3.0, "y": -2.0}
+    stepper.restore(dict(stepper.snapshot()) | start)
     before = stepper.sample()
     stepper.advance()
     now = stepper.sample()

@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.motion import free_motion
-from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics import LinearModel, split_outputs
 from yawdamp_ros.dynamics.kinematics import FloatArray, coupled_positions
 from yawdamp_ros.stepping import Response
 from yawdamp_ros.vehicle import Axle, Vehicle
@@ -107,15 +107,15 @@ def run_lane_change(
 
 
 def _response(model: LinearModel, time: FloatArray, vectors: FloatArray, steering: FloatArray) -> Response:
-    units = len(model.vehicle.units)
-    states = vectors[:, : 2 * units]
-    outputs = states @ model.output_matrix.T + np.outer(steering, model.feedthrough)
-    articulation = outputs[:, 3 * units :]
-    yaw = np.column_stack(
-        [vectors[:, 2 * units], vectors[:, 2 * units, np.newaxis] - articulation.cumsum(axis=1)]
+    size = len(model.state_matrix)
+    states = vectors[:, :size]
+    outputs = split_outputs(
+        states @ model.output_matrix.T + np.outer(steering, model.feedthrough), len(model.vehicle.units)
     )
+    lead_yaw = vectors[:, size, np.newaxis]
+    yaw = np.hstack([lead_yaw, lead_yaw - outputs.articulation.cumsum(axis=1)])
     heading = np.exp(1j * yaw)
-    velocity = (model.speed + 1j * outputs[:, 0]) * heading[:, 0]
+    velocity = (model.speed + 1j * outputs.lateral_velocity[:, 0]) * heading[:, 0]
     lead = cumulative_trapezoid(velocity, dx=SAMPLE_PERIOD, initial=0.0)
     positions = coupled_positions(model.vehicle.hitches, lead, heading)
     return Response(
@@ -123,9 +123,9 @@ def _response(model: LinearModel, time: FloatArray, vectors: FloatArray, steerin
         time=time,
         steering_angle=steering,
         yaw=yaw,
-        yaw_rate=outputs[:, units : 2 * units],
-        lateral_acceleration=outputs[:, 2 * units : 3 * units],
-        articulation=articulation,
+        yaw_rate=outputs.yaw_rate,
+        lateral_acceleration=outputs.lateral_acceleration,
+        articulation=outputs.articulation,
         x=positions.real,
         y=positions.imag,
     )
@@ -143,7 +143,7 @@ class _Inverse:
     @classmethod
     def of(cls, model: LinearModel) -> "_Inverse":
         position = steer_axle(model.vehicle).position
-        output = 2 * len(model.vehicle.units)
+        output = model.output_names.index(f"{model.vehicle.unit_names[0]}/lateral_acceleration")
         # a_y + x r' of the lead unit
         row = model.output_matrix[output] + position * model.state_matrix[1]
         direct = float(model.feedthrough[output] + position * model.input_matrix[1])

@@ -17,7 +17,7 @@ class Peaks:
     def __init__(self, units: int) -> None:
         self.yaw, self.yaw_rate, self.lateral_acceleration = np.zeros((3, units))
 
-    def update(self, sample: Sample) -> None:
+    def write(self, sample: Sample) -> None:
         """Take a sample of one or more instants into account."""
         for peak, values in (
             (self.yaw, sample.yaw),
@@ -25,3 +25,6 @@ class Peaks:
             (self.lateral_acceleration, sample.lateral_acceleration),
         ):
             np.maximum(peak, np.abs(values).reshape(-1, len(peak)).max(axis=0), out=peak)
+
+    def close(self) -> None:
+        """See `Sink`; they stay to be read."""

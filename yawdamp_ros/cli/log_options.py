@@ -49,20 +49,49 @@ def log_options(options: argparse.Namespace) -> list[str]:
     return [name for name in names if getattr(options, name)]
 
 
-def chosen_drive(
-    path: str, options: argparse.Namespace, duration: float | None, *, measured: bool = True
-) -> Drive:
-    """Drive of a path in road-wheel angles, cut as the options say.
+def steering_ratio(options: argparse.Namespace) -> float:
+    """Commanded angle over road-wheel angle, as the options say.
+
+    Raises
+    ------
+    UsageError
+        If it cannot be one.
+    """
+    ratio = 1.0 if options.steering_ratio is None else float(options.steering_ratio)
+    if not RATIOS[0] <= ratio <= RATIOS[1]:
+        message = f"--steering-ratio: {ratio}: expected a number from {RATIOS[0]:g} to {RATIOS[1]:g}"
+        raise UsageError(message)
+    return ratio
+
+
+def chosen_drive(path: str, options: argparse.Namespace, duration: float | None) -> Drive:
+    """Drive of a path with all its channels, steering in road-wheel angles, cut as the options say.
 
     Raises
     ------
     UsageError, LogError
         If an option or the log cannot be used.
     """
-    ratio = 1.0 if options.steering_ratio is None else options.steering_ratio
-    if not RATIOS[0] <= ratio <= RATIOS[1]:
-        message = f"--steering-ratio: {ratio}: expected a number from {RATIOS[0]:g} to {RATIOS[1]:g}"
-        raise UsageError(message)
+    return _read(path, options, duration, measured=True).steered_by(steering_ratio(options))
+
+
+def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
+    """Steering of a drive of a path as it was commanded, cut as the options say.
+
+    Raises
+    ------
+    UsageError, LogError
+        If an option or the log cannot be used.
+    """
+    steering_ratio(options)
+    drive = _read(path, options, duration, measured=False)
+    steering: Channel = drive["steering"]
+    return SteeringLog(
+        drive.source, steering.times.tolist(), steering.values.tolist(), drive.start_time, drive.warning
+    )
+
+
+def _read(path: str, options: argparse.Namespace, duration: float | None, *, measured: bool) -> Drive:
     recording = format_of(Path(path)).has_topics
     for option in ("column",) if recording else ("topic", "joint"):
         if getattr(options, option) is not None:
@@ -79,13 +108,4 @@ def chosen_drive(
     )
     if drive.warning:
         print(f"warning: {drive.warning}", file=sys.stderr)
-    return drive.steered_by(ratio).window(options.start_offset or 0.0, duration)
-
-
-def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
-    """Steering of a drive of a path in road-wheel angles, cut as the options say."""
-    drive = chosen_drive(path, options, duration, measured=False)
-    steering: Channel = drive["steering"]
-    return SteeringLog(
-        drive.source, steering.times.tolist(), steering.values.tolist(), drive.start_time, drive.warning
-    )
+    return drive.window(options.start_offset or 0.0, duration)

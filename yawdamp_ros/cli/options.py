@@ -8,7 +8,8 @@ from typing import Any, NoReturn
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.dynamics import MODELS, LinearModel, linear_model
 from yawdamp_ros.errors import one_line
-from yawdamp_ros.manoeuvres import MANOEUVRES, Manoeuvre, make_manoeuvre
+from yawdamp_ros.manoeuvres import MANOEUVRES
+from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.vehicle import Vehicle, examined_vehicle, vehicle_text
 
 DEFAULT_VEHICLE = "interlink"
@@ -40,6 +41,18 @@ class _Once(argparse.Action):
                 parser.error(f"{option_string}: given twice; expected it once")
             parser.given.add(self.dest)
         setattr(namespace, self.dest, values)
+
+
+RUN_SETTINGS = (
+    "max_steering_angle",
+    "steering_timeout",
+    "on_steering_timeout",
+    "steering_time_constant",
+    "steering_rate_limit",
+    "max_lateral_acceleration",
+    "max_articulation",
+)
+"""Of `SimParameters`: what becomes of the steering, and where a run is stopped."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -126,12 +139,39 @@ def add_manoeuvre_options(parser: argparse.ArgumentParser) -> None:
         group.add_argument(f"--{setting}", type=float, metavar=metavar, help=explanation)
 
 
+def add_run_settings(parser: argparse.ArgumentParser) -> None:
+    """Add what `sim` and `simulate` are asked for alike, as the settings record has it."""
+    group = parser.add_argument_group("steering and limits")
+    for name in RUN_SETTINGS:
+        declared = SimParameters.__dataclass_fields__[name]
+        group.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=type(declared.default),
+            choices=declared.metadata["choices"] or None,
+            metavar=None if declared.metadata["choices"] else "X",
+            help=f"{declared.metadata['description']}; default: {declared.default}",
+        )
+
+
+def run_settings(options: argparse.Namespace) -> dict[str, Any]:
+    """Those that were given, by field name.
+
+    Raises
+    ------
+    UsageError
+        If one is out of its range.
+    """
+    given = {name: value for name in RUN_SETTINGS if (value := getattr(options, name)) is not None}
+    for name, value in given.items():
+        limits = SimParameters.__dataclass_fields__[name].metadata["limits"]
+        if limits and not limits[0] <= value <= limits[1]:
+            low, high = limits
+            message = f"--{name.replace('_', '-')}: {value}: expected a number from {low:g} to {high:g}"
+            raise UsageError(message)
+    return given
+
+
 def manoeuvre_settings(options: argparse.Namespace) -> dict[str, float]:
     """Settings that were given, by field name."""
     names = [setting.replace("-", "_") for setting in MANOEUVRE_SETTINGS]
     return {name: value for name in names if (value := getattr(options, name)) is not None}
-
-
-def chosen_manoeuvre(options: argparse.Namespace) -> Manoeuvre:
-    """Manoeuvre that the options name."""
-    return make_manoeuvre(options.manoeuvre, manoeuvre_settings(options))

@@ -7,8 +7,7 @@ from pathlib import Path
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.options import Parser
 from yawdamp_ros.logs import is_recording
-from yawdamp_ros.logs.response_reader import read_response_csv
-from yawdamp_ros.logs.response_recording import read_response_recording
+from yawdamp_ros.runs import read_response_csv, read_response_recording
 from yawdamp_ros.stepping import Response
 
 KINDS = (".png", ".svg", ".html")

@@ -18,14 +18,15 @@ def main(arguments: Sequence[str]) -> int:
 
 def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
     from yawdamp_ros.cli.errors import UsageError  # noqa: PLC0415
-    from yawdamp_ros.cli.log_options import chosen_log  # noqa: PLC0415
+    from yawdamp_ros.cli.log_options import chosen_log, steering_ratio  # noqa: PLC0415
     from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415
 
     options, ros_arguments = parse_before_ros(_parser(), arguments)
     if not 0.0 < options.rate < float("inf"):
         message = f"--rate: {options.rate}: expected a number above 0"
         raise UsageError(message)
-    log = chosen_log(options.log, options, options.duration)
+    ratio = steering_ratio(options)
+    log = chosen_log(options.log, options, options.duration).divided(ratio)
     if options.loop and not log.duration:
         message = "--loop: the log is of one instant"
         raise UsageError(message)

@@ -13,7 +13,7 @@ from yawdamp_ros.cli.options import Parser, add_format_option, add_vehicle_optio
 from yawdamp_ros.cli.ros import require_ros
 from yawdamp_ros.errors import YawdampError
 from yawdamp_ros.logs import LogError, is_recording
-from yawdamp_ros.logs.response_reader import read_response_csv
+from yawdamp_ros.runs import read_response_csv
 
 VEHICLE_OPTIONS = ("vehicle", "speed", "model")
 
@@ -64,7 +64,7 @@ def _of_recording(path: Path, options: argparse.Namespace) -> Answer:
             message = f"--{option}: {path} is a recording and holds its own"
             raise UsageError(message)
     require_ros()
-    from yawdamp_ros.nodes.resimulation import Resimulation  # noqa: PLC0415 - needs ROS's messages
+    from yawdamp_ros.runs.resimulation import Resimulation  # noqa: PLC0415 - needs ROS's messages
 
     run = Resimulation(path)
     with progress_bar() as bar:
@@ -90,7 +90,7 @@ def _of_recording(path: Path, options: argparse.Namespace) -> Answer:
 
 
 def _of_csv(path: Path, options: argparse.Namespace) -> Answer:
-    from yawdamp_ros.analysis.repetition import (  # noqa: PLC0415 - not needed by recordings
+    from yawdamp_ros.runs.csv_resimulation import (  # noqa: PLC0415 - not needed by recordings
         QUANTITIES,
         TOLERANCE,
         first_parting,

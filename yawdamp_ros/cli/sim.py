@@ -50,24 +50,26 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
 
         simulator = Simulator(node)
         try:
-            served = _run(node, simulator, stop)
+            served, dropped = _run(node, simulator, stop)
         finally:
             simulator.close()
-        _report(simulator)
+        _report(simulator, dropped)
     return 0 if served and simulator.flawless else 1
 
 
-def _run(node: "Node", simulator: "Simulator", stop: StopRequest) -> bool:
+def _run(node: "Node", simulator: "Simulator", stop: StopRequest) -> tuple[bool, int]:
+    """Serve the node; return whether its ROS context outlived it, and the steps that it dropped."""
     if stop.requested:
-        return True
+        return True, 0
     from yawdamp_ros.nodes.graph import spin  # noqa: PLC0415
+    from yawdamp_ros.nodes.server import Server  # noqa: PLC0415
 
     simulator.publish_first()
     with _progress(simulator) as progress:
         gc.freeze()  # what there is by now is never garbage
         gc.enable()
-        simulator.start()
-        return spin(node, stop, lambda: simulator.finished, progress)
+        server = Server(node, simulator)
+        return spin(node, stop, lambda: simulator.finished, progress), server.steps_dropped
 
 
 @contextmanager
@@ -81,18 +83,18 @@ def _progress(simulator: "Simulator") -> Iterator[Callable[[], None]]:
 
     with progress_bar() as bar:
         task = bar.add_task("simulating", total=simulator.settings.duration)
-        yield lambda: bar.update(task, completed=simulator.simulated_time)
+        yield lambda: bar.update(task, completed=simulator.run.time)
 
 
-def _report(simulator: "Simulator") -> None:
+def _report(simulator: "Simulator", dropped: int) -> None:
     from yawdamp_ros.cli.peaks_table import print_peaks  # noqa: PLC0415
 
     print_peaks(simulator.model, simulator.peaks)
-    if simulator.steps_given_up:
-        lost = simulator.grid.seconds(simulator.steps_given_up)
-        print(f"late: {simulator.steps_given_up} steps given up, {lost:g} s behind the steady clock")
-    if simulator.stopped:
-        print(f"stopped at {simulator.simulated_time:g} s: {simulator.stopped}")
+    if dropped:
+        lost = simulator.grid.seconds(dropped)
+        print(f"late: {dropped} steps given up, {lost:g} s behind the steady clock")
+    if simulator.run.stopped:
+        print(f"stopped at {simulator.run.time:g} s: {simulator.run.stopped.reason}")
     if simulator.recorder.directory is not None:
         print(f"run: {simulator.recorder.directory}")
 
@@ -101,6 +103,7 @@ def _parser() -> "argparse.ArgumentParser":
     from yawdamp_ros.cli.options import (  # noqa: PLC0415
         Parser,
         add_manoeuvre_options,
+        add_run_settings,
         add_vehicle_options,
     )
 
@@ -113,6 +116,7 @@ def _parser() -> "argparse.ArgumentParser":
     )
     add_vehicle_options(parser)
     add_manoeuvre_options(parser)
+    add_run_settings(parser)
     run = parser.add_argument_group("run")
     run.add_argument("--duration", type=float, metavar="S", help="simulated time; default: until Ctrl-C")
     run.add_argument("--step-size", type=float, metavar="S", help="default: 0.001")
@@ -124,7 +128,7 @@ def _parser() -> "argparse.ArgumentParser":
 
 def _overrides(options: "argparse.Namespace") -> dict[str, Any]:
     """Node parameters that the options give; those not given are left to --ros-args."""
-    from yawdamp_ros.cli.options import manoeuvre_settings  # noqa: PLC0415
+    from yawdamp_ros.cli.options import manoeuvre_settings, run_settings  # noqa: PLC0415
 
     given: dict[str, Any] = {
         "vehicle": options.vehicle,
@@ -137,6 +141,7 @@ def _overrides(options: "argparse.Namespace") -> dict[str, Any]:
         "publish_rate": options.publish_rate,
         "record_directory": options.output,
         "record": False if options.no_record else None,
+        **run_settings(options),
         **{f"manoeuvre.{name}": value for name, value in manoeuvre_settings(options).items()},
     }
     return {name: value for name, value in given.items() if value is not None}

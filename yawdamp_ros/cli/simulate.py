@@ -5,79 +5,135 @@ import sys
 from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
+
+import numpy as np
+from rich.progress import Progress
 
 from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.cli.log_options import add_log_options, chosen_log, log_options
+from yawdamp_ros.cli.log_options import add_log_options, chosen_log, log_options, steering_ratio
 from yawdamp_ros.cli.options import (
+    DEFAULT_MODEL,
     Parser,
     add_manoeuvre_options,
+    add_run_settings,
     add_vehicle_options,
-    chosen_manoeuvre,
-    chosen_model,
     chosen_name,
+    chosen_vehicle,
     manoeuvre_settings,
+    run_settings,
 )
 from yawdamp_ros.cli.peaks_table import print_peaks
 from yawdamp_ros.cli.ros import require_ros
-from yawdamp_ros.logs import ResponseCsv, default_run_directory, make_run_directory
+from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.nodes.stop_request import StopRequest
-from yawdamp_ros.stepping import Stepper, TimeGrid
-from yawdamp_ros.stepping.response import Steering, sample_run
+from yawdamp_ros.runs import ResponseCsv, default_run_directory, make_run_directory
+from yawdamp_ros.simulation import (
+    SAMPLES_AT_ONCE,
+    Commands,
+    Limits,
+    Run,
+    SimParameters,
+    Sink,
+    make_motion,
+)
+from yawdamp_ros.stepping import Motion, Sample, TimeGrid, Verdict
 from yawdamp_ros.vehicle import VehicleSource, vehicle_text
-
-if TYPE_CHECKING:
-    from yawdamp_ros.nodes.recording import RunRecorder
 
 DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Simulate a manoeuvre or a log, write the run, print its peaks."""
+    """Simulate a manoeuvre or a log, write the run, print its peaks; 1 if a limit stopped it."""
     options = _parser().parse_args(arguments)
-    model = chosen_model(options)
-    steering, duration = _steering(options)
-    if not 0.0 <= duration < float("inf"):
-        message = f"--duration: {duration}: expected a time in s, 0 or more"
-        raise UsageError(message)
-    if growing := growth(model):
+    vehicle = chosen_vehicle(options)
+    log, settings = _settings(options)
+    grid = TimeGrid.of(settings.step_size, _sample_period(options))
+    motion = make_motion(vehicle, settings.model, None, grid.step_size)
+    commands = Commands(settings, grid, motion, None if log is None else (log.times, log.angles))
+    if growing := growth(motion.linearise()):
         print(f"warning: {growing}", file=sys.stderr)
-    output = Path(options.output or default_run_directory(model.vehicle.name))
-    to_csv = output.suffix == ".csv"
-    period = options.sample_period
-    if period is None:
-        period = options.step_size if to_csv else RUN_SAMPLE_PERIOD
-    grid = TimeGrid.of(options.step_size, period)
-    stepper = Stepper(model, grid.step_size)
-    samples = sample_run(stepper, grid, steering, duration)
-    peaks = Peaks(len(model.vehicle.units))
+    output = Path(options.output or default_run_directory(vehicle.name))
+    peaks = Peaks(len(vehicle.units))
     with StopRequest() as stop:
-        if to_csv:
-            sink: ResponseCsv | RunRecorder = ResponseCsv(output, model.vehicle.unit_names, grid)
+        if _to_csv(options):
+            sink: Sink = ResponseCsv(output, motion, grid)
         else:
             require_ros()
             output = make_run_directory(output, numbered=not options.output)
-            sink = _run_recorder(output, stepper, grid, options)
-        with closing(sink) as writer, progress_bar() as bar:
-            task = bar.add_task("simulating", total=duration)
-            for sample in samples:
-                writer.write(sample)
-                peaks.update(sample)
-                bar.update(task, completed=grid.seconds(stepper.step))
-                if stop.requested:
-                    # Raised inside, so that what was simulated is kept in a finished file.
-                    raise KeyboardInterrupt
-    print_peaks(model, peaks)
-    print(f"{'csv' if to_csv else 'run'}: {output}")
-    return 0
+            sink = _run_sink(output, motion, grid, settings, options)
+        with progress_bar() as bar:
+            sinks = [sink, peaks, _ProgressSink(bar, grid, settings.duration)]
+            with closing(Run(motion, grid, commands, sinks, Limits.of(settings))) as run:
+                _carry_out(run, grid.samples_in(settings.duration), stop)
+    print_peaks(motion.linearise(), peaks)
+    if clamped := commands.steering_input.counts[Verdict.CLAMPED]:
+        print(f"{clamped} commands clamped to {settings.max_steering_angle:g} rad")
+    if run.stopped is not None:
+        print(f"stopped at {run.time:g} s: {run.stopped.reason}")
+    print(f"{'csv' if _to_csv(options) else 'run'}: {output}")
+    return 1 if run.stopped else 0
 
 
-def _steering(options: argparse.Namespace) -> tuple[Steering, float]:
-    """Steering as a function of time, and how long it is to be followed in s."""
+def _carry_out(run: Run, samples: int, stop: StopRequest) -> None:
+    run.start()
+    for begin in range(0, samples, SAMPLES_AT_ONCE):
+        if run.stopped is not None:
+            return
+        run.advance(min(SAMPLES_AT_ONCE, samples - begin))
+        if stop.requested:
+            # Raised where the sinks are open, so that what was simulated is kept in a finished file.
+            raise KeyboardInterrupt
+
+
+class _ProgressSink:
+    """Shows how far a run is whose end is known."""
+
+    def __init__(self, bar: Progress, grid: TimeGrid, duration: float) -> None:
+        self._bar, self._grid = bar, grid
+        self._task = bar.add_task("simulating", total=duration)
+
+    def write(self, sample: Sample) -> None:
+        """Take a sample of one or more instants."""
+        self._bar.update(self._task, completed=self._grid.seconds(int(np.max(sample.step))))
+
+    def close(self) -> None:
+        """The bar closes itself."""
+
+
+def _settings(options: argparse.Namespace) -> tuple[SteeringLog | None, SimParameters]:
+    """The log, if there is one, and what the run is asked for."""
+    log = _log(options)
+    duration = options.duration
+    if duration is None:
+        duration = DEFAULT_DURATION if log is None else log.duration
+    if not 0.0 <= duration < float("inf"):
+        message = f"--duration: {duration}: expected a time in s, 0 or more"
+        raise UsageError(message)
+    period = _sample_period(options)
+    given: dict[str, Any] = manoeuvre_settings(options) | run_settings(options)
+    return log, SimParameters(
+        vehicle=chosen_name(options),
+        vehicle_overrides=options.set or [""],
+        model=options.model or DEFAULT_MODEL,
+        speed=options.speed or 0.0,
+        step_size=options.step_size,
+        publish_rate=1.0 / period if period else 0.0,
+        real_time_factor=0.0,
+        steering_ratio=steering_ratio(options),
+        manoeuvre=options.manoeuvre or "none",
+        duration=duration,
+        record=not _to_csv(options),
+        record_directory=options.output or "",
+        **given,
+    )
+
+
+def _log(options: argparse.Namespace) -> SteeringLog | None:
     if options.log is not None:
         given = [*(["manoeuvre"] if options.manoeuvre else []), *manoeuvre_settings(options)]
         if given:
@@ -86,29 +142,38 @@ def _steering(options: argparse.Namespace) -> tuple[Steering, float]:
         if options.output is not None and Path(options.output).resolve() == Path(options.log).resolve():
             message = f"--output: {options.output}: that is the log"
             raise UsageError(message)
-        log = chosen_log(options.log, options, options.duration)
-        return log, log.duration if options.duration is None else options.duration
+        steering_ratio(options)
+        return chosen_log(options.log, options, options.duration)
     if unused := log_options(options):
         message = f"--{unused[0].replace('_', '-')}: there is no --log that it could be of"
         raise UsageError(message)
     if options.manoeuvre is None:
         message = "no steering; expected --manoeuvre NAME or --log FILE"
         raise UsageError(message)
-    return chosen_manoeuvre(options), DEFAULT_DURATION if options.duration is None else options.duration
+    return None
 
 
-def _run_recorder(
-    directory: Path, stepper: Stepper, grid: TimeGrid, options: argparse.Namespace
-) -> "RunRecorder":
-    from yawdamp_ros.nodes.recording import RunRecorder  # noqa: PLC0415 - a CSV needs no ROS
+def _to_csv(options: argparse.Namespace) -> bool:
+    return Path(options.output or "").suffix == ".csv"
 
-    return RunRecorder(
-        directory,
-        stepper,
-        grid,
-        parameters=vars(options),
-        vehicle=VehicleSource(vehicle_text(chosen_name(options)), tuple(options.set)),
-    )
+
+def _sample_period(options: argparse.Namespace) -> float:
+    if options.sample_period is not None:
+        return float(options.sample_period)
+    return float(options.step_size) if _to_csv(options) else RUN_SAMPLE_PERIOD
+
+
+def _run_sink(
+    directory: Path, motion: Motion, grid: TimeGrid, settings: SimParameters, options: argparse.Namespace
+) -> Sink:
+    from yawdamp_ros.runs.encoder import Encoder  # noqa: PLC0415 - a CSV needs no ROS
+    from yawdamp_ros.runs.recipe import Recipe, RunFile  # noqa: PLC0415
+
+    encoder = Encoder(motion, settings, grid, start_time=0)
+    source = VehicleSource(vehicle_text(chosen_name(options)), tuple(options.set))
+    recipe = Recipe(motion, grid, settings, source, start_time=0, types=encoder.types)
+    encoder.sinks.append(RunFile(recipe.open(directory, settings)))
+    return encoder
 
 
 def _parser() -> Parser:
@@ -121,6 +186,7 @@ def _parser() -> Parser:
     add_vehicle_options(parser)
     add_manoeuvre_options(parser)
     add_log_options(parser)
+    add_run_settings(parser)
     parser.add_argument("--log", metavar="FILE", help="steering log, in place of a manoeuvre")
     run = parser.add_argument_group("run")
     run.add_argument("--duration", type=float, metavar="S", help="default: 15, or to the end of the log")

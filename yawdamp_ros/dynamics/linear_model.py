@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -111,26 +112,66 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     )
 
 
+class OutputSlices(NamedTuple):
+    """Where in the outputs of n units each quantity is, as `LinearModel.output_names` has them."""
+
+    lateral_velocity: slice
+    yaw_rate: slice
+    lateral_acceleration: slice
+    articulation: slice
+
+    @classmethod
+    def of(cls, units: int) -> "OutputSlices":
+        """Those of a number of units."""
+        return cls(*(slice(start, start + units) for start in range(0, 4 * units, units)))
+
+
+class Outputs(NamedTuple):
+    """Outputs of a linear model of n units by quantity; each of shape (..., n), articulation (..., n - 1)."""
+
+    lateral_velocity: FloatArray
+    yaw_rate: FloatArray
+    lateral_acceleration: FloatArray
+    articulation: FloatArray
+
+
+def split_outputs(outputs: FloatArray, units: int) -> Outputs:
+    """Views of outputs in the order of `LinearModel.output_names`.
+
+    Parameters
+    ----------
+    outputs : ndarray, shape (..., 4 n - 1)
+    units : int
+        n.
+
+    Returns
+    -------
+    Outputs
+    """
+    return Outputs(*(outputs[..., part] for part in OutputSlices.of(units)))
+
+
 def _outputs(
     vehicle: Vehicle, speed: float, state_matrix: FloatArray, input_matrix: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     count = len(vehicle.units)
     rates = count + 1
+    at = OutputSlices.of(count)
     rows = cg_rows(vehicle)
     identity = np.eye(2 * count)
     stack = state_matrix.shape[:-2]
     output_matrix = np.zeros((*stack, 4 * count - 1, 2 * count))
-    output_matrix[..., :count, :rates] = rows
+    output_matrix[..., at.lateral_velocity, :rates] = rows
     for index in range(count):
         # v_k = y_k' - u psi_k, and psi_1 - psi_k is the sum of the joints ahead of unit k.
         output_matrix[..., index, rates : rates + index] += np.asarray(speed)[..., np.newaxis]
-    output_matrix[..., count : 2 * count, :] = identity[1:rates]
+    output_matrix[..., at.yaw_rate, :] = identity[1:rates]
     # a_y,k = y_k'' with y'' = v' + u r_1
-    output_matrix[..., 2 * count : 3 * count, :] = rows @ state_matrix[..., :rates, :]
-    output_matrix[..., 2 * count : 3 * count, 1] += np.asarray(speed)[..., np.newaxis]
-    output_matrix[..., 3 * count :, :] = identity[rates:]
+    output_matrix[..., at.lateral_acceleration, :] = rows @ state_matrix[..., :rates, :]
+    output_matrix[..., at.lateral_acceleration, 1] += np.asarray(speed)[..., np.newaxis]
+    output_matrix[..., at.articulation, :] = identity[rates:]
     feedthrough = np.zeros((*stack, 4 * count - 1))
-    feedthrough[..., 2 * count : 3 * count] = (rows @ input_matrix[..., :rates, np.newaxis])[..., 0]
+    feedthrough[..., at.lateral_acceleration] = (rows @ input_matrix[..., :rates, np.newaxis])[..., 0]
     return output_matrix, feedthrough
 
 

@@ -9,8 +9,8 @@ from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from yawdamp_ros.nodes.messages import type_name
 from yawdamp_ros.nodes.states import Problem
+from yawdamp_ros.runs.encoder import type_name
 
 CUT_OFF = (
     "the shared memory of Fast DDS was removed: who comes from now on can neither steer nor hear this node; "

@@ -9,56 +9,44 @@ from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
 from yawdamp_ros.nodes.graph import wait_for_subscribers
-from yawdamp_ros.nodes.messages import Noise, OutputMessages
 from yawdamp_ros.nodes.scene import markers, transforms
-from yawdamp_ros.simulation.settings import SimParameters
-from yawdamp_ros.stepping import Sample
+from yawdamp_ros.runs.encoder import Encoded, Encoder, message_class
+from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
+from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.vehicle import Vehicle
 
-QUEUE_DEPTH = 10
 NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
 
 
-class Outputs:
+class Topics:
     """Publishers of everything that a sample becomes.
 
     Parameters
     ----------
     node : Node
     vehicle : Vehicle
+    encoder : Encoder
+        Whose messages they publish.
     settings : SimParameters
 
     Attributes
     ----------
-    messages : OutputMessages
-        Those that are recorded, too.
-    topics : list of str
-        Their fully qualified names.
+    names : list of str
+        Fully qualified, of what the encoder serialises.
     without_tf : str
         Why there are no frames on ``/tf``; empty if there are.
     """
 
-    def __init__(self, node: Node, vehicle: Vehicle, settings: SimParameters) -> None:
+    def __init__(self, node: Node, vehicle: Vehicle, encoder: Encoder, settings: SimParameters) -> None:
+        self._node = node
         self._vehicle = vehicle
-        noise = Noise(
-            settings.yaw_stddev,
-            settings.yaw_rate_stddev,
-            settings.lateral_acceleration_stddev,
-            settings.noise_seed,
-        )
         self._frame_prefix = settings.frame_prefix
-        self.messages = OutputMessages(
-            vehicle.unit_names,
-            publish_scalars=settings.publish_scalars,
-            noise=noise,
-            frame_prefix=settings.frame_prefix,
-        )
         self._publishers = [
             # Without event handlers, each of which the executor puts into a wait set at every wake-up.
-            node.create_publisher(kind, topic, QUEUE_DEPTH, event_callbacks=NO_EVENTS)
-            for topic, kind in self.messages.types.items()
+            node.create_publisher(message_class(kind), topic, QUEUE_DEPTH, event_callbacks=NO_EVENTS)
+            for topic, kind in encoder.types.items()
         ]
-        self.topics = [publisher.topic_name for publisher in self._publishers]
+        self.names = [publisher.topic_name for publisher in self._publishers]
         self._clock = node.create_publisher(Clock, "/clock", QUEUE_DEPTH) if settings.publish_clock else None
         self._markers = (
             node.create_publisher(MarkerArray, "markers", QUEUE_DEPTH) if settings.publish_markers else None
@@ -67,24 +55,23 @@ class Outputs:
         if settings.publish_tf:
             self._tf, self._tf_class, self.without_tf = _tf_publisher(node)
 
-    def publish(self, sample: Sample, stamp: int) -> list[bytes]:
-        """Publish a sample with a stamp in ns; return the messages that are recorded, serialised once."""
+    def write(self, encoded: Encoded) -> None:
+        """Publish a sample of one instant."""
+        [stamp], [messages] = encoded.stamps, encoded.messages
         if self._clock is not None:
             self._clock.publish(Clock(clock=Time(nanoseconds=stamp).to_msg()))
-        [serialised] = self.messages.serialised(sample, [stamp])
-        for publisher, data in zip(self._publishers, serialised, strict=True):
+        for publisher, data in zip(self._publishers, messages, strict=True):
             publisher.publish(data)
+        scene = self._vehicle, encoded.sample, stamp, self._frame_prefix
         if self._tf is not None and self._tf_class is not None:
-            self._tf.publish(
-                self._tf_class(transforms=transforms(self._vehicle, sample, stamp, self._frame_prefix))
-            )
+            self._tf.publish(self._tf_class(transforms=transforms(*scene)))
         if self._markers is not None:
-            self._markers.publish(markers(self._vehicle, sample, stamp, self._frame_prefix))
-        return serialised
+            self._markers.publish(markers(*scene))
 
     def close(self) -> None:
         """Let subscribers have what was published."""
-        wait_for_subscribers(self._publishers)
+        if self._node.context.ok():
+            wait_for_subscribers(self._publishers)
 
 
 def _tf_publisher(node: Node) -> tuple[Any, Any, str]:

@@ -3,8 +3,11 @@
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from yawdamp_ros.logs import BackgroundWriter, LogError, RunWriter, SerialisedMessage
+from yawdamp_ros.logs import LogError
 from yawdamp_ros.nodes.states import RecorderState
+from yawdamp_ros.runs import BackgroundWriter, RunWriter, SerialisedMessage
+from yawdamp_ros.runs.encoder import Encoded
+from yawdamp_ros.runs.recipe import recorded_messages
 
 
 class Recorder:
@@ -73,6 +76,15 @@ class Recorder:
             self._writer = None
 
     def offer(self, messages: Sequence[SerialisedMessage]) -> None:
-        """Hand over the messages of a sample; they are written if a run is."""
+        """Hand over messages, if a run is being written."""
         if self._writer is not None:
             self._writer.offer(messages)
+
+    def write(self, encoded: Encoded) -> None:
+        """Take a sample; see `EncodedSink`."""
+        if self.recording:
+            self.offer(recorded_messages(encoded))
+
+    def close(self) -> None:
+        """See `stop`."""
+        self.stop()

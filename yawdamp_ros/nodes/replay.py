@@ -13,9 +13,9 @@ from std_srvs.srv import SetBool
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.stop_request import StopRequest
+from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.stepping.time_grid import nanoseconds
 
-QUEUE_DEPTH = 10
 POLL = 0.02
 """Seconds between looks for a subscriber, a pause or its end."""
 SETTLING = 0.3

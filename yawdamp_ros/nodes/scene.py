@@ -1,13 +1,12 @@
 """The combination for viewers: markers, and the tree of frames that `urdf` describes, too."""
 
-import math
 from typing import Any
 
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Quaternion, TransformStamped
 from visualization_msgs.msg import Marker, MarkerArray
 
-from yawdamp_ros.nodes.messages import turn
 from yawdamp_ros.stepping import Sample
+from yawdamp_ros.stepping.pose import half_turn, pose
 from yawdamp_ros.stepping.time_grid import SECOND
 from yawdamp_ros.vehicle import Vehicle
 from yawdamp_ros.vehicle.shape import HEIGHT, WIDTH, extent, hitch_frame
@@ -23,12 +22,10 @@ def markers(vehicle: Vehicle, sample: Sample, stamp: int, prefix: str) -> Marker
         rear, front = extent(unit)
         marker = Marker(ns="units", id=index, type=Marker.CUBE, action=Marker.ADD)
         _stamp(marker.header, stamp, f"{prefix}odom")
-        yaw = float(sample.yaw[index])
-        turn(marker.pose.orientation, yaw)
         # The box's middle is not the centre of gravity.
-        ahead = 0.5 * (front + rear)
-        marker.pose.position.x = float(sample.x[index]) + ahead * math.cos(yaw)
-        marker.pose.position.y = float(sample.y[index]) + ahead * math.sin(yaw)
+        middle, half = pose(sample, index, ahead=0.5 * (front + rear))
+        _turn(marker.pose.orientation, half)
+        marker.pose.position.x, marker.pose.position.y = middle.real, middle.imag
         marker.pose.position.z = 0.5 * HEIGHT
         marker.scale.x, marker.scale.y, marker.scale.z = front - rear, WIDTH, HEIGHT
         red, green, blue = COLOURS[index % len(COLOURS)]
@@ -40,22 +37,26 @@ def markers(vehicle: Vehicle, sample: Sample, stamp: int, prefix: str) -> Marker
 def transforms(vehicle: Vehicle, sample: Sample, stamp: int, prefix: str) -> list[TransformStamped]:
     """Frames from the ground to the lead unit, then over each hitch to the next: those of the URDF."""
     names = [prefix + name for name in vehicle.unit_names]
-    lead = _transform(f"{prefix}odom", names[0], stamp, float(sample.x[0]), float(sample.yaw[0]))
-    lead.transform.translation.y = float(sample.y[0])
+    lead = _transform(f"{prefix}odom", names[0], stamp, *pose(sample, 0))
     tree = [lead]
     for joint, (rear_hitch, front_hitch) in enumerate(vehicle.hitches):
         towed, hitch = names[joint + 1], hitch_frame(names[joint + 1])
-        tree.append(_transform(names[joint], hitch, stamp, rear_hitch, -float(sample.articulation[joint])))
-        tree.append(_transform(hitch, towed, stamp, -front_hitch, 0.0))
+        folded = half_turn(-sample.articulation[joint])
+        tree.append(_transform(names[joint], hitch, stamp, complex(rear_hitch), folded))
+        tree.append(_transform(hitch, towed, stamp, complex(-front_hitch), 1.0 + 0.0j))
     return tree
 
 
-def _transform(parent: str, child: str, stamp: int, x: float, yaw: float) -> TransformStamped:
+def _transform(parent: str, child: str, stamp: int, place: complex, half: complex) -> TransformStamped:
     message = TransformStamped(child_frame_id=child)
     _stamp(message.header, stamp, parent)
-    message.transform.translation.x = x
-    turn(message.transform.rotation, yaw)
+    message.transform.translation.x, message.transform.translation.y = place.real, place.imag
+    _turn(message.transform.rotation, half)
     return message
+
+
+def _turn(orientation: Quaternion, half: complex) -> None:
+    orientation.w, orientation.z = half.real, half.imag
 
 
 def _stamp(header: Any, stamp: int, frame: str) -> None:  # noqa: ANN401 - a generated message

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable
-from importlib import import_module
 from typing import Any
 
 from rclpy.clock import Clock
@@ -13,11 +12,13 @@ from std_msgs.msg import Float64
 
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.states import VERDICT_SENTENCES
+from yawdamp_ros.runs.encoder import message_class
+from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
+from yawdamp_ros.simulation import Commands
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_stamp
-from yawdamp_ros.stepping import SpeedInput, SteeringInput, Verdict
+from yawdamp_ros.stepping import SpeedInput, Verdict
 from yawdamp_ros.stepping.time_grid import SECOND
 
-QUEUE_DEPTH = 10
 WARNING_PERIOD = 5.0
 """Seconds between warnings of one kind."""
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
@@ -26,24 +27,24 @@ QUIET = SubscriptionEventCallbacks(use_default_callbacks=False)
 """What does not fit is said by `Neighbours`, which knows whose it is."""
 
 
-def message_class(type_name: str) -> Any:  # noqa: ANN401 - generated classes share no base
-    """Class of a message type such as ``sensor_msgs/msg/JointState``.
+def steering_class(type_name: str) -> Any:  # noqa: ANN401 - generated classes share no base
+    """Class of a message type that can hold steering.
 
     Raises
     ------
     NodeError
         If the package that defines it is not installed.
     """
-    package, _, name = type_name.split("/")
     try:
-        return getattr(import_module(f"{package}.msg"), name)
+        return message_class(type_name)
     except (ImportError, AttributeError) as error:
+        package = type_name.partition("/")[0]
         message = f"parameter steering_type: {type_name}: needs the package {package}, which is not installed"
         raise NodeError(message) from error
 
 
 class SteeringSubscription:
-    """Hands steering commands of any of the known types to a `SteeringInput`.
+    """Hands steering commands of any of the known types to `Commands`.
 
     Parameters
     ----------
@@ -52,9 +53,7 @@ class SteeringSubscription:
         One of `STEERING_TYPES`.
     joint : str
         Joint that steers, where the type is JointState.
-    target : SteeringInput
-    step : callable
-        The newest simulated step.
+    target : Commands
     now : callable
         Time in ns that stamps are held against.
 
@@ -64,14 +63,13 @@ class SteeringSubscription:
         If the message package is not installed.
     """
 
-    def __init__(  # noqa: PLR0913 - each is one thing that a command is judged by
+    def __init__(
         self,
         node: Node,
         type_name: str,
         joint: str,
-        target: SteeringInput,
+        target: Commands,
         *,
-        step: Callable[[], int],
         now: Callable[[], int],
     ) -> None:
         self._warned_at: dict[Verdict, float] = {}
@@ -79,10 +77,9 @@ class SteeringSubscription:
         self._angle = STEERING_TYPES[type_name]
         self._joint = joint
         self._target = target
-        self._step = step
         self._now = now
         self._subscription = node.create_subscription(
-            message_class(type_name), "steering", self._receive, QUEUE_DEPTH, event_callbacks=QUIET
+            steering_class(type_name), "steering", self._receive, QUEUE_DEPTH, event_callbacks=QUIET
         )
         # As rclpy's executor takes: it has no public call for it. Without, commands wait for the executor.
         self._can_take = hasattr(self._subscription.handle, "take_message")
@@ -100,15 +97,15 @@ class SteeringSubscription:
     def _receive(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
         command = self._angle(message, self._joint)
         if command is None:
-            self._target.reject(Verdict.NO_JOINT)
+            self._target.steering_input.reject(Verdict.NO_JOINT)
             self._warn(Verdict.NO_JOINT, f"no joint {self._joint!r} with a position")
             return
         stamp = message_stamp(message)
         age = (self._now() - stamp) / SECOND if stamp else None
-        verdict = self._target.offer(command, self._step(), age)
+        verdict = self._target.steer(command, age, message)
         if verdict is not Verdict.ACCEPTED:
             stamped = "" if age is None else f", stamped {age:.3g} s ago"
-            count = self._target.counts[verdict]
+            count = self._target.steering_input.counts[verdict]
             self._warn(verdict, f"{command}{stamped}: {VERDICT_SENTENCES[verdict]}, {count} so far")
 
     def _warn(self, kind: Verdict, text: str) -> None:

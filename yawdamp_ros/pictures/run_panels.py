@@ -1,6 +1,6 @@
 """What a picture of runs shows, whatever draws it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +8,8 @@ import numpy as np
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.pictures.errors import PictureError
 from yawdamp_ros.pictures.figure import COLOURS
+from yawdamp_ros.runs import outputs
+from yawdamp_ros.runs.outputs import Of, Output, quantity
 from yawdamp_ros.stepping import Response
 
 MOST_RUNS = 6
@@ -53,7 +55,7 @@ class Panel(NamedTuple):
 
 
 def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
-    """Steer angle, yaw, yaw rate, lateral acceleration and, where there are any, articulation and paths.
+    """A panel for every output of one number that a run has, and the paths where it holds them.
 
     Parameters
     ----------
@@ -76,43 +78,63 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
     _check_count("units", len(units), len(COLOURS))
     colours = dict(zip(units, COLOURS, strict=False))
 
-    def of_units(x: Callable[[Response], FloatArray], y: Callable[[Response], FloatArray]) -> list[Curve]:
+    def curves(output: Output) -> list[Curve]:
         return [
-            Curve(unit, run, colours[unit], along, across)
+            Curve(name, run, colour, response.time, values)
             for run, response in enumerate(responses)
-            for unit, along, across in zip(response.unit_names, x(response).T, y(response).T, strict=True)
+            if has(response, output)
+            for name, colour, values in zip(
+                *_named(output, response.unit_names, colours), _columns(response, output), strict=False
+            )
         ]
 
-    def time(response: Response) -> FloatArray:
-        return np.broadcast_to(response.time[:, np.newaxis], response.yaw.shape)
-
-    steering = [
-        Curve("steer angle", run, COLOURS[-1], response.time, response.steering_angle)
+    paths = [
+        Curve(unit, run, colours[unit], x, y)
         for run, response in enumerate(responses)
+        for unit, x, y in zip(response.unit_names, response.x.T, response.y.T, strict=True)
+        if np.isfinite(x).all() and np.isfinite(y).all()
     ]
-    articulation = [
-        # Backwards from black, away from the colours of the units.
-        Curve(f"articulation {joint + 1}", run, COLOURS[-1 - joint % len(COLOURS)], response.time, angles)
-        for run, response in enumerate(responses)
-        for joint, angles in enumerate(response.articulation.T)
-    ]
-    paths = of_units(lambda run: run.x, lambda run: run.y)
     panels = [
-        Panel("time, s", "steer angle, rad", "", steering, held=True),
-        Panel("time, s", "yaw, rad", "", of_units(time, lambda run: run.yaw)),
-        Panel("time, s", "yaw rate, rad/s", "", of_units(time, lambda run: run.yaw_rate)),
         Panel(
-            "time, s", "lateral acceleration, m/s²", "", of_units(time, lambda run: run.lateral_acceleration)
-        ),
-        Panel("time, s", "articulation, rad", "", articulation),
-        Panel(
-            "x, m",
-            "y (left), m",
-            "paths of the centres of gravity, scales unequal",
-            [curve for curve in paths if np.isfinite(curve.x).all() and np.isfinite(curve.y).all()],
-        ),
+            "time, s",
+            f"{output.description}, {output.unit.replace('^2', '²')}",
+            "",
+            curves(output),
+            output.held,
+        )
+        for output in outputs.OUTPUTS
+        if output.unit
     ]
+    panels.append(Panel("x, m", "y (left), m", "paths of the centres of gravity, scales unequal", paths))
     return [panel for panel in panels if panel.curves]
+
+
+def has(response: Response, output: Output) -> bool:
+    """Whether a response holds an output."""
+    return output.name in response.extra or hasattr(response, output.name)
+
+
+def _label(output: Output) -> str:
+    return f"{output.description}, {output.unit.replace('^2', '²')}"
+
+
+def _columns(response: Response, output: Output) -> FloatArray:
+    """Values of an output, one row a unit or joint."""
+    return quantity(response, output.name).reshape(len(response.time), -1).T
+
+
+def _named(
+    output: Output, unit_names: Sequence[str], colours: Mapping[str, str]
+) -> tuple[Sequence[str], Sequence[str]]:
+    """Names and colours of the curves of an output."""
+    if output.of is Of.UNIT:
+        return unit_names, [colours[unit] for unit in unit_names]
+    if output.of is Of.JOINT:
+        joints = range(len(unit_names) - 1)
+        # Backwards from black, away from the colours of the units.
+        names = [f"{output.description} {joint + 1}" for joint in joints]
+        return names, [COLOURS[-1 - joint % len(COLOURS)] for joint in joints]
+    return [output.description], [COLOURS[-1]]
 
 
 def _check_count(what: str, count: int, most: int) -> None:

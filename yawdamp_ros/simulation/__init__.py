@@ -1,1 +1,28 @@
-"""A run, from what it is asked for to what comes out of it; no ROS."""
+"""A run, from what it is asked for to what comes out of it; no ROS.
+
+``command source -> SteeringInput -> SteeringActuator -> Motion.run -> limits -> Sample -> sinks``
+"""
+
+from yawdamp_ros.simulation.commands import Commands
+from yawdamp_ros.simulation.errors import SimulationError
+from yawdamp_ros.simulation.library import simulate
+from yawdamp_ros.simulation.limits import Limits, Stop
+from yawdamp_ros.simulation.models import MODELS, make_motion
+from yawdamp_ros.simulation.run import SAMPLES_AT_ONCE, Run, Source
+from yawdamp_ros.simulation.settings import SimParameters
+from yawdamp_ros.simulation.sink import Sink
+
+__all__ = [
+    "MODELS",
+    "SAMPLES_AT_ONCE",
+    "Commands",
+    "Limits",
+    "Run",
+    "SimParameters",
+    "SimulationError",
+    "Sink",
+    "Source",
+    "Stop",
+    "make_motion",
+    "simulate",
+]

@@ -6,8 +6,9 @@ from dataclasses import Field, dataclass, field, fields
 from types import MappingProxyType
 from typing import Any
 
-from yawdamp_ros.dynamics import LOWEST_SPEED, MODELS
+from yawdamp_ros.dynamics import LOWEST_SPEED
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
+from yawdamp_ros.simulation.models import MODELS
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES
 
 UNSET = float("nan")
@@ -63,7 +64,7 @@ class SimParameters:
     vehicle_overrides: list[str] = _parameter(
         [""], "changes to the vehicle, each KEY=VALUE as in units.1.mass=4156"
     )
-    model: str = _parameter("consistent", "linear model of the vehicle", choices=MODELS)
+    model: str = _parameter("consistent", "model of the vehicle", choices=MODELS)
     speed: float = _parameter(
         0.0, "longitudinal speed in m/s; 0: the vehicle's own", limits=(0.0, 70.0), dynamic=True
     )

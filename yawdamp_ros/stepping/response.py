@@ -1,20 +1,19 @@
 """Whole runs in memory, for notebooks, tables and files."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 
-from yawdamp_ros.dynamics import LinearModel, linear_model
+from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.errors import SteppingError
+from yawdamp_ros.stepping.motion import Motion
 from yawdamp_ros.stepping.propagation import Propagation, outputs_of, propagator
-from yawdamp_ros.stepping.sample import Sample
+from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.stepper import Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
-from yawdamp_ros.vehicle import Vehicle, load_vehicle
+from yawdamp_ros.stepping.yaw import LARGEST_YAW
 
 Steering = Callable[[float], float]
 """Road-wheel steer angle in rad at a time in s."""
@@ -39,6 +38,8 @@ class Response:
         rad.
     x, y : ndarray, shape (m, n)
         Centres of gravity in the ground frame, m.
+    extra : mapping of str to ndarray, shape (m, n), (m, n - 1) or (m, 1)
+        Quantities that not every motion has, as `Sample.extra`.
     """
 
     unit_names: tuple[str, ...]
@@ -50,6 +51,7 @@ class Response:
     articulation: FloatArray
     x: FloatArray
     y: FloatArray
+    extra: Mapping[str, FloatArray] = field(default_factory=dict)
 
     @classmethod
     def of(cls, samples: Iterable[Sample], unit_names: Sequence[str], grid: TimeGrid) -> "Response":
@@ -69,15 +71,21 @@ class Response:
             articulation=stacked("articulation"),
             x=stacked("x"),
             y=stacked("y"),
+            extra={
+                name: np.concatenate(
+                    [np.reshape(sample.extra[name], (np.size(sample.step), -1)) for sample in taken]
+                )
+                for name in taken[0].extra
+            },
         )
 
 
-def sample_run(stepper: Stepper, grid: TimeGrid, steering: Steering, duration: float) -> Iterator[Sample]:
+def sample_run(motion: Motion, grid: TimeGrid, steering: Steering, duration: float) -> Iterator[Sample]:
     """Samples of a run from its first instant to its last, as they come.
 
     Parameters
     ----------
-    stepper : Stepper
+    motion : Motion
         At step 0.
     grid : TimeGrid
     steering : callable
@@ -89,14 +97,20 @@ def sample_run(stepper: Stepper, grid: TimeGrid, steering: Steering, duration: f
     ------
     Sample
         Of one instant, then of up to `SAMPLES_AT_ONCE` each.
+
+    Raises
+    ------
+    SteppingError
+        If the motion grows beyond all numbers.
     """
     last = grid.samples_in(duration)
-    stepper.steer(steering(0.0))
-    yield stepper.sample()
+    motion.apply(AppliedInput(motion.step, "steering", steering(0.0)))
+    yield motion.sample()
     for begin in range(0, last, SAMPLES_AT_ONCE):
         samples = min(SAMPLES_AT_ONCE, last - begin)
-        steps = range(stepper.step + 1, stepper.step + 1 + samples * grid.steps_per_sample)
-        yield stepper.run([steering(grid.seconds(step)) for step in steps], grid.steps_per_sample)
+        steps = range(motion.step + 1, motion.step + 1 + samples * grid.steps_per_sample)
+        sample = motion.run([steering(grid.seconds(step)) for step in steps], grid.steps_per_sample)
+        yield _finite(sample, motion, grid)
 
 
 def respond(model: LinearModel, angles: FloatArray, grid: TimeGrid) -> Response:
@@ -113,12 +127,18 @@ def respond(model: LinearModel, angles: FloatArray, grid: TimeGrid) -> Response:
     Returns
     -------
     Response
+
+    Raises
+    ------
+    SteppingError
+        If the motion grows beyond all numbers.
     """
     stepper = Stepper(model, grid.step_size)
     stepper.steer(float(angles[0]))
     samples = [stepper.sample()]
     if steps := (len(angles) - 1) // grid.steps_per_sample * grid.steps_per_sample:
-        samples.append(stepper.run(angles[1 : steps + 1], grid.steps_per_sample, tell_inputs=False))
+        run = stepper.run(angles[1 : steps + 1], grid.steps_per_sample, tell_inputs=False)
+        samples.append(_finite(run, stepper, grid))
     return Response.of(samples, model.vehicle.unit_names, grid)
 
 
@@ -150,77 +170,11 @@ def linear_response(
     return states[:, :-1], outputs_of(motion.propagator, states)
 
 
-def simulate(  # noqa: PLR0913 - each is one setting of a run
-    vehicle: Vehicle | str | Path,
-    steering: Steering | npt.ArrayLike,
-    duration: float,
-    *,
-    step_size: float = 0.001,
-    sample_period: float | None = None,
-    speed: float | None = None,
-    model: str = "consistent",
-) -> Response:
-    """Response of a vehicle from rest to steering.
-
-    Parameters
-    ----------
-    vehicle : Vehicle, str or Path
-        A name or a path is loaded as `load_vehicle` does.
-    steering : callable or array_like, shape (k,)
-        Road-wheel steer angle in rad: at a time in s, as the manoeuvres are, or of every step of the
-        duration, from 0 s on; one more value is that from the end on.
-    duration : float
-        In s.
-    step_size : float
-        Fixed step in s; the steering is held over each.
-    sample_period : float, optional
-        Time between samples in s; the step unless given.
-    speed : float, optional
-        Longitudinal speed in m/s; the vehicle's own unless given.
-    model : str
-        One of `yawdamp_ros.dynamics.MODELS`.
-
-    Returns
-    -------
-    Response
-
-    Raises
-    ------
-    SteppingError
-        If the times do not fit together, or the steering is neither a function nor an angle for every step.
-    VehicleError
-        If there is no such vehicle.
-    DynamicsError
-        If there is no such model at that speed.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> simulate("interlink", np.full(2000, 0.01), 2.0).yaw_rate.shape
-    (2001, 3)
-    """
-    if not isinstance(vehicle, Vehicle):
-        vehicle = load_vehicle(vehicle)
-    grid = TimeGrid.of(step_size, step_size if sample_period is None else sample_period)
-    held = steering if callable(steering) else _held(steering, grid, duration)
-    stepper = Stepper(linear_model(vehicle, speed, model), grid.step_size)
-    return Response.of(sample_run(stepper, grid, held, duration), vehicle.unit_names, grid)
-
-
-def _held(steering: npt.ArrayLike, grid: TimeGrid, duration: float) -> Steering:
-    """Steering function of angles given step by step."""
-    steps = grid.samples_in(duration) * grid.steps_per_sample
-    expected = (
-        f"expected a function of time in s, or {steps} finite angles, one for every step of "
-        f"{grid.step_size:g} s over {duration:g} s"
-    )
-    try:
-        angles = np.asarray(steering, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        message = f"steering: {type(steering).__name__}: {expected}"
-        raise SteppingError(message) from error
-    if angles.ndim != 1 or len(angles) not in {steps, steps + 1} or not np.isfinite(angles).all():
-        message = f"steering: an array of shape {angles.shape}: {expected}"
+def _finite(sample: Sample, motion: Motion, grid: TimeGrid) -> Sample:
+    """The sample, of several instants, unless there are no numbers for it."""
+    known = (np.abs(sample.yaw) <= LARGEST_YAW).all(axis=-1)
+    if not known.all():
+        time = grid.seconds(int(sample.step[np.argmin(known)]))
+        message = f"{motion.vehicle.name}: unstable, beyond all numbers at {time:g} s"
         raise SteppingError(message)
-    last = len(angles) - 1
-    return lambda time: float(angles[min(round(time / grid.step_size), last)])
+    return sample

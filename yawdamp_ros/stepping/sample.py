@@ -1,11 +1,15 @@
 """The one record that crosses from the numerics to messages and files."""
 
-from typing import Literal, NamedTuple
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray
+
+NOTHING: Mapping[str, FloatArray] = MappingProxyType({})
 
 
 class AppliedInput(NamedTuple):
@@ -15,14 +19,52 @@ class AppliedInput(NamedTuple):
     ----------
     step : int
     name : str
-        ``steering``, ``speed`` or ``reset``.
+        One of the motion's `input_names`, such as ``steering``.
     value : float
         Road-wheel steer angle in rad, speed in m/s, or 0 for a reset.
     """
 
     step: int
-    name: Literal["steering", "speed", "reset"]
+    name: str
     value: float
+
+
+class Command(NamedTuple):
+    """A steering command that was taken, as it was received.
+
+    Attributes
+    ----------
+    step : int
+        The newest one when it came; it acts from the next step on.
+    angle : float
+        As commanded, rad.
+    message : object
+        The message that held it; None where it came otherwise.
+    """
+
+    step: int
+    angle: float
+    message: Any = None
+
+
+class Event(NamedTuple):
+    """Something that happened to the vehicle, such as a wheel that lifts.
+
+    Attributes
+    ----------
+    step : int
+    name : str
+        Of the kind of event, such as ``wheel_lift``.
+    where : str
+        Unit, joint or wheel.
+    final : bool
+        Whether the motion means nothing from here on.
+    """
+
+    step: int
+    name: str
+    where: str
+    final: bool = False
 
 
 class Sample(NamedTuple):
@@ -36,8 +78,6 @@ class Sample(NamedTuple):
         Steps since the start; with the step size, the time.
     steering_angle : ndarray, shape ()
         Road-wheel steer angle in force from this instant on, rad.
-    speed : float
-        Longitudinal speed, m/s.
     x, y : ndarray, shape (n,)
         Centres of gravity in the ground frame, m.
     yaw, yaw_rate : ndarray, shape (n,)
@@ -54,11 +94,16 @@ class Sample(NamedTuple):
         ``psi_k - psi_(k+1)`` and its rate, rad and rad/s.
     inputs : tuple of AppliedInput
         What took effect after the sample before, up to the last of these, in order.
+    extra : mapping of str to ndarray, shape (n,), (n - 1,) or ()
+        Quantities that not every motion has, by the motion's `quantity_names`.
+    events : tuple of Event
+        What happened after the sample before.
+    commands : tuple of Command
+        What was received after the sample before.
     """
 
     step: npt.NDArray[np.int64]
     steering_angle: FloatArray
-    speed: float
     x: FloatArray
     y: FloatArray
     yaw: FloatArray
@@ -70,3 +115,22 @@ class Sample(NamedTuple):
     articulation: FloatArray
     articulation_rate: FloatArray
     inputs: tuple[AppliedInput, ...]
+    extra: Mapping[str, FloatArray] = NOTHING
+    events: tuple[Event, ...] = ()
+    commands: tuple[Command, ...] = ()
+
+    def before(self, instant: int) -> "Sample":
+        """Sample of the instants before one of several, at least one, and what happened up to the last."""
+        cut = {
+            name: value[:instant]
+            for name, value in self._asdict().items()
+            if isinstance(value, np.ndarray) and value.shape[:1] == self.step.shape
+        }
+        last = int(self.step[instant - 1])
+        return self._replace(
+            **cut,
+            extra={name: value[:instant] for name, value in self.extra.items()},
+            inputs=tuple(applied for applied in self.inputs if applied.step <= last),
+            events=tuple(event for event in self.events if event.step <= last),
+            commands=tuple(command for command in self.commands if command.step <= last),
+        )

@@ -1,6 +1,7 @@
 """The lag between a steering command and the road wheels."""
 
 import math
+from collections.abc import Sequence
 
 
 class SteeringActuator:
@@ -36,3 +37,10 @@ class SteeringActuator:
         else:
             self._angle += self._closing * (self._demand - self._angle)
         return self._angle
+
+    def follow_all(self, commands: Sequence[float]) -> Sequence[float]:
+        """Road-wheel angles in rad over steps, on the way to a command in rad each."""
+        if self._closing == 1.0 and self._largest_change == math.inf:
+            self._demand = self._angle = commands[-1]
+            return commands
+        return list(map(self.follow, commands))

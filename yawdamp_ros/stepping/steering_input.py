@@ -84,7 +84,11 @@ class SteeringInput:
         """Road-wheel steer angle in rad asked for from a step on, within the limit of now."""
         if self.zero_on_timeout and self.timed_out(step):
             return 0.0
-        return min(max(self._angle, -self.limit), self.limit)
+        return self.limited(self._angle)
+
+    def limited(self, angle: float) -> float:
+        """Road-wheel angle in rad within the limit of now."""
+        return min(max(angle, -self.limit), self.limit)
 
     def silence(self, step: int) -> int | None:
         """Steps since the last command; None before the first."""

@@ -1,59 +1,28 @@
 """The fixed step: zero-order hold by matrix exponential, exact for held steering."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from yawdamp_ros.dynamics import LinearModel, linear_model
+from yawdamp_ros.dynamics import LinearModel, linear_model, split_outputs
 from yawdamp_ros.dynamics.kinematics import (
     ComplexArray,
     FloatArray,
     coupled_positions,
     coupled_velocities,
 )
-from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.propagation import Propagation, Propagator, outputs_of, propagator
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
-from yawdamp_ros.stepping.yaw import LARGEST_YAW, Yaw, YawParts
+from yawdamp_ros.stepping.yaw import Yaw, YawParts
 
 KNOWN_SPEEDS = 128
 """Speeds whose matrices are kept."""
 
 
-class Snapshot(NamedTuple):
-    """All that the future depends on, given the model's vehicle and the inputs to come.
-
-    Attributes
-    ----------
-    step : int
-    speed : float
-        In m/s.
-    steering_angle : float
-        Held road-wheel steer angle in rad.
-    state : tuple of float
-    yaw, yaw_remainder : float
-        Of the lead unit in rad: a number and what its rounding left over.
-    x, y : float
-        Of the lead unit's centre of gravity in the ground frame, m.
-    sampled : bool
-        Whether this instant's sample was taken, and its inputs told.
-    """
-
-    step: int
-    speed: float
-    steering_angle: float
-    state: tuple[float, ...]
-    yaw: float
-    yaw_remainder: float
-    x: float
-    y: float
-    sampled: bool
-
-
-class _Motion(NamedTuple):
+class _Instants(NamedTuple):
     """One instant, or k instants: yaw and position are of the lead unit."""
 
     states: FloatArray  # the last column is the yaw since the start of the block
@@ -74,10 +43,15 @@ class Stepper:
         In s.
     """
 
+    input_names: Sequence[str] = ("steering", "speed", "reset")
+    quantity_names: Sequence[str] = ()
+
     def __init__(self, model: LinearModel, step_size: float) -> None:
+        self.vehicle = model.vehicle
+        self.state_names: Sequence[str] = model.state_names
         self.step_size = step_size
         self.step = 0
-        self._vehicle, self._model_name = model.vehicle, model.model
+        self._model_name = model.model
         self._units = len(model.vehicle.units)
         self._inputs = [
             AppliedInput(0, "speed", model.speed),
@@ -91,9 +65,9 @@ class Stepper:
         self._velocity = complex(model.speed)
 
     @property
-    def model(self) -> LinearModel:
-        """The model at the speed of now."""
-        return self._motion.propagator.model
+    def speed(self) -> float:
+        """Longitudinal speed of now, m/s."""
+        return self._motion.propagator.model.speed
 
     @property
     def state(self) -> FloatArray:
@@ -121,7 +95,7 @@ class Stepper:
         DynamicsError
             If the speed is not positive and finite.
         """
-        if speed != self.model.speed:
+        if speed != self.speed:
             at_speed = self._at_speed(speed)
             self._yaw.turn(self._motion.start_block())
             self._motion.propagator = at_speed
@@ -136,35 +110,39 @@ class Stepper:
         self._set_ground_velocity()
         self._note("reset", 0.0)
 
-    def snapshot(self) -> Snapshot:
-        """What `restore` needs to go on from this instant, at which a block starts for both."""
+    def snapshot(self) -> Mapping[str, Any]:
+        """State sufficient for `restore`; a block starts here for both."""
         self._yaw.turn(self._motion.start_block())
         self._set_ground_velocity()  # of the yaw as `restore` will know it, which is rounded otherwise
-        return Snapshot(
-            step=self.step,
-            speed=self.model.speed,
-            steering_angle=self.steering_angle,
-            state=tuple(self.state.tolist()),
-            yaw=self._yaw.parts.value,
-            yaw_remainder=self._yaw.parts.remainder,
-            x=self._position.real,
-            y=self._position.imag,
-            sampled=not self._inputs,
-        )
+        return {
+            "step": self.step,
+            "speed": self.speed,
+            "steering_angle": self.steering_angle,
+            "state": self.state.tolist(),
+            "yaw": self._yaw.parts.value,
+            "yaw_remainder": self._yaw.parts.remainder,
+            "x": self._position.real,
+            "y": self._position.imag,
+            "sampled": not self._inputs,
+        }
 
-    def restore(self, snapshot: Snapshot) -> None:
+    def restore(self, snapshot: Mapping[str, Any]) -> None:
         """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
-        self.change_speed(snapshot.speed)
-        self.step = snapshot.step
-        self._motion.stand(np.array(snapshot.state))
-        self._yaw.set(snapshot.yaw, snapshot.yaw_remainder)
-        self._motion.steering_angle = snapshot.steering_angle
-        self._position = complex(snapshot.x, snapshot.y)
+        self.change_speed(snapshot["speed"])
+        self.step = snapshot["step"]
+        self._motion.stand(np.array(snapshot["state"]))
+        self._yaw.set(snapshot["yaw"], snapshot["yaw_remainder"])
+        self._motion.steering_angle = snapshot["steering_angle"]
+        self._position = complex(snapshot["x"], snapshot["y"])
         self._set_ground_velocity()
         self._inputs = []
 
+    def linearise(self) -> LinearModel:
+        """Linear model at the speed of now, which is all there is to this motion."""
+        return self._motion.propagator.model
+
     def apply(self, applied: AppliedInput) -> None:
-        """Let a recorded input act from this instant on."""
+        """Let an input act from this instant on."""
         if applied.name == "steering":
             self.steer(applied.value)
         elif applied.name == "speed":
@@ -173,18 +151,12 @@ class Stepper:
             self.reset()
 
     def advance(self, steps: int = 1) -> None:
-        """Take steps with the steering held.
-
-        Raises
-        ------
-        SteppingError
-            If the motion has grown beyond all numbers.
-        """
-        if not steps:
-            return
-        angles = np.empty(steps)
-        angles.fill(self.steering_angle)
-        self._advance(angles)
+        """Take steps with the steering held."""
+        if steps:
+            angles = np.empty(steps)
+            angles.fill(self.steering_angle)
+            with np.errstate(over="ignore", invalid="ignore"):
+                self._advance(angles)
 
     def run(
         self,
@@ -207,34 +179,32 @@ class Stepper:
         Returns
         -------
         Sample
-            Of the last instant, or of k / steps_per_sample instants.
-
-        Raises
-        ------
-        SteppingError
-            If the motion has grown beyond all numbers.
+            Of the last instant, or of k / steps_per_sample instants. An unstable motion ends in nan.
         """
         given = np.asarray(angles, dtype=np.float64)
         if tell_inputs:
             self._note_changes(given)
-        states, blocks, positions = self._advance(given)
-        if steps_per_sample is None:
-            motion = _Motion(states[-1], np.array(blocks[-1][1]), positions[-1])
-            return self._sample_of(np.asarray(self.step), given[-1], motion)
-        chosen = slice(steps_per_sample - 1, None, steps_per_sample)
-        counts, bases = zip(*blocks, strict=True)
-        motion = _Motion(states[chosen], np.repeat(bases, counts, axis=0)[chosen], positions[chosen])
-        steps = np.arange(self.step + 1 - len(given), self.step + 1)
-        return self._sample_of(steps[chosen], given[chosen], motion)
+        # Judging what an unstable motion grows to is up to the caller.
+        with np.errstate(over="ignore", invalid="ignore"):
+            states, blocks, positions = self._advance(given)
+            if steps_per_sample is None:
+                instants = _Instants(states[-1], np.array(blocks[-1][1]), positions[-1])
+                return self._sample_of(np.asarray(self.step), given[-1], instants)
+            chosen = slice(steps_per_sample - 1, None, steps_per_sample)
+            counts, bases = zip(*blocks, strict=True)
+            instants = _Instants(states[chosen], np.repeat(bases, counts, axis=0)[chosen], positions[chosen])
+            steps = np.arange(self.step + 1 - len(given), self.step + 1)
+            return self._sample_of(steps[chosen], given[chosen], instants)
 
     def sample(self) -> Sample:
         """Sample of this instant; the list of inputs starts anew."""
         step, angle = np.asarray(self.step), np.asarray(self.steering_angle)
-        return self._sample_of(step, angle, self._now())
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self._sample_of(step, angle, self._now())
 
-    def _now(self) -> _Motion:
+    def _now(self) -> _Instants:
         states = np.append(self.state, self._motion.turned)
-        return _Motion(states, np.array(self._yaw.parts), np.asarray(self._position))
+        return _Instants(states, np.array(self._yaw.parts), np.asarray(self._position))
 
     def _advance(self, angles: FloatArray) -> tuple[FloatArray, list[tuple[int, YawParts]], ComplexArray]:
         """Take a step for each of k angles.
@@ -242,7 +212,7 @@ class Stepper:
         Returns
         -------
         states : ndarray, shape (k, 2 n + 1)
-            As `_Motion.states`.
+            As `_Instants.states`.
         blocks : list of (int, YawParts)
             Steps, and the yaw at the start of the block.
         positions : ndarray of complex, shape (k,)
@@ -250,10 +220,6 @@ class Stepper:
         states = np.empty((len(angles), 2 * self._units + 1))
         steps_of_blocks = self._motion.advance(angles, states)
         turned = states[:, -1]
-        if not abs(turned[-1]) <= LARGEST_YAW:  # so that no number is none, either
-            time = (self.step + 1 + int(np.argmin(np.abs(turned) <= LARGEST_YAW))) * self.step_size
-            message = f"{self._vehicle.name}: unstable, beyond all numbers at {time:g} s"
-            raise SteppingError(message)
         self.step += len(angles)
         blocks = []
         for steps, turned_before in steps_of_blocks:
@@ -265,7 +231,7 @@ class Stepper:
         else:
             counts, parts = zip(*blocks, strict=True)
             yaw = turned + np.repeat([part.wrapped + part.remainder for part in parts], counts)
-        velocities = _ground_velocity(self.model.speed, states[:, 0], yaw)
+        velocities = _ground_velocity(self.speed, states[:, 0], yaw)
         ways = np.empty_like(velocities)
         ways[0], ways[1:] = self._velocity, velocities[:-1]
         ways += velocities
@@ -275,36 +241,34 @@ class Stepper:
         self._position, self._velocity = complex(positions[-1]), complex(velocities[-1])
         return states, blocks, positions
 
-    def _sample_of(self, step: npt.NDArray[np.int64], steering_angle: FloatArray, motion: _Motion) -> Sample:
-        count = self._units
-        states_and_angle = motion.states.copy()
+    def _sample_of(self, step: npt.NDArray[np.int64], steering_angle: FloatArray, at: _Instants) -> Sample:
+        states_and_angle = at.states.copy()
         states_and_angle[..., -1] = steering_angle
-        outputs = outputs_of(self._motion.propagator, states_and_angle)
-        yaw_rate, articulation = outputs[..., count : 2 * count], outputs[..., 3 * count :]
-        value, remainder, wrapped = (motion.base[..., part] for part in range(3))
-        turned = np.empty_like(yaw_rate)
-        turned[..., 0] = motion.states[..., -1] + remainder
-        for joint in range(count - 1):
-            turned[..., joint + 1] = turned[..., joint] - articulation[..., joint]
+        outputs = split_outputs(outputs_of(self._motion.propagator, states_and_angle), self._units)
+        value, remainder, wrapped = (at.base[..., part] for part in range(3))
+        turned = np.empty_like(outputs.yaw_rate)
+        turned[..., 0] = at.states[..., -1] + remainder
+        for joint in range(self._units - 1):
+            turned[..., joint + 1] = turned[..., joint] - outputs.articulation[..., joint]
         heading = _heading(wrapped[..., np.newaxis] + turned)
-        positions = coupled_positions(self._vehicle.hitches, motion.position, heading)
-        lead = np.full_like(outputs[..., 0], self.model.speed), outputs[..., 0]
-        velocity = coupled_velocities(self._vehicle.hitches, lead, yaw_rate, heading)
+        positions = coupled_positions(self.vehicle.hitches, at.position, heading)
+        sideways = outputs.lateral_velocity[..., 0]
+        lead = np.full_like(sideways, self.speed), sideways
+        velocity = coupled_velocities(self.vehicle.hitches, lead, outputs.yaw_rate, heading)
         inputs, self._inputs = tuple(self._inputs), []
         return Sample(
             step=step,
             steering_angle=steering_angle,
-            speed=self.model.speed,
             x=positions.real,
             y=positions.imag,
             yaw=value[..., np.newaxis] + turned,
-            yaw_rate=yaw_rate,
+            yaw_rate=outputs.yaw_rate,
             heading=heading,
             velocity=velocity,
-            lateral_velocity=outputs[..., :count],
-            lateral_acceleration=outputs[..., 2 * count : 3 * count],
-            articulation=articulation,
-            articulation_rate=yaw_rate[..., :-1] - yaw_rate[..., 1:],
+            lateral_velocity=outputs.lateral_velocity,
+            lateral_acceleration=outputs.lateral_acceleration,
+            articulation=outputs.articulation,
+            articulation_rate=outputs.yaw_rate[..., :-1] - outputs.yaw_rate[..., 1:],
             inputs=inputs,
         )
 
@@ -314,18 +278,18 @@ class Stepper:
         for index in np.flatnonzero(angles != before).tolist():
             self._inputs.append(AppliedInput(self.step + 1 + index, "steering", float(angles[index])))
 
-    def _note(self, name: Literal["steering", "speed", "reset"], value: float) -> None:
+    def _note(self, name: str, value: float) -> None:
         # Of what is set twice at one step only the last ever acted.
         if self._inputs and self._inputs[-1][:2] == (self.step, name):
             self._inputs.pop()
         self._inputs.append(AppliedInput(self.step, name, value))
 
     def _propagator(self, speed: float) -> Propagator:
-        return propagator(linear_model(self._vehicle, speed, self._model_name), self.step_size)
+        return propagator(linear_model(self.vehicle, speed, self._model_name), self.step_size)
 
     def _set_ground_velocity(self) -> None:
         yaw = np.array([self._motion.turned + self._yaw.direction])
-        self._velocity = complex(_ground_velocity(self.model.speed, self.state[:1], yaw)[0])
+        self._velocity = complex(_ground_velocity(self.speed, self.state[:1], yaw)[0])
 
 
 def _ground_velocity(speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:

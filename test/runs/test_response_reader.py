@@ -7,9 +7,9 @@ import pytest
 
 from yawdamp_ros.cli import run
 from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.logs.response_reader import read_response_csv
 from yawdamp_ros.manoeuvres import LaneChange
-from yawdamp_ros.stepping import simulate
+from yawdamp_ros.runs.response_reader import read_response_csv
+from yawdamp_ros.simulation import simulate
 from yawdamp_ros.vehicle import load_vehicle
 
 HEADER = (

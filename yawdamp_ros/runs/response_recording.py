@@ -3,15 +3,17 @@
 import math
 from collections import defaultdict
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.logs.mcap_log import McapLog, MessageDecoder
-from yawdamp_ros.logs.response_reader import LARGEST_VALUE
+from yawdamp_ros.logs import LogError, McapLog, MessageDecoder
+from yawdamp_ros.runs import outputs
+from yawdamp_ros.runs.outputs import FLOAT64
+from yawdamp_ros.runs.response_reader import LARGEST_VALUE
 from yawdamp_ros.stepping import Response
 from yawdamp_ros.stepping.time_grid import SECOND
 
@@ -39,6 +41,7 @@ def read_response_recording(path: Path) -> Response:
     """
     decode = MessageDecoder()
     messages: dict[str, list[Any]] = defaultdict(list)
+    scalars: dict[str, list[Any]] = defaultdict(list)
     units: dict[str, None] = {}
     stamps: list[int] = []
     log = McapLog(path)
@@ -48,6 +51,8 @@ def read_response_recording(path: Path) -> Response:
         if name == "joint_states":
             stamps.append(message.log_time)
             messages[name].append(decode(message))
+        elif message.type_name == FLOAT64 and name not in Response.__dataclass_fields__:
+            scalars[message.topic].append(decode(message))
         elif name in OF_UNITS:
             units[unit] = None
             messages[f"{unit}/{name}"].append(decode(message))
@@ -59,7 +64,8 @@ def read_response_recording(path: Path) -> Response:
         why = f"; {log.warning}" if log.warning else ""
         raise LogError(path, f"no run: expected joint_states, and imu and odom of every unit{why}")
     try:
-        return _response(messages, tuple(units), stamps)
+        response = _response(messages, tuple(units), stamps)
+        return replace(response, extra=_extra(scalars, response))
     except (AttributeError, TypeError, ValueError, IndexError, OverflowError) as error:
         raise LogError(path, f"no run: its messages hold something else: {error}") from error
 
@@ -90,6 +96,19 @@ def _response(messages: Mapping[str, list[Any]], units: tuple[str, ...], stamps:
         x=gather(lambda unit, index: position(unit, index).x),
         y=gather(lambda unit, index: position(unit, index).y),
     )
+
+
+def _extra(scalars: Mapping[str, list[Any]], response: Response) -> dict[str, FloatArray]:
+    """Outputs of one number besides those that every response has."""
+    found = {}
+    count = len(response.time)
+    for output in outputs.OUTPUTS:
+        names = output.names(response.unit_names)
+        topics = [next((topic for topic in scalars if topic.endswith(f"/{name}")), "") for name in names]
+        if output.type_name == FLOAT64 and not hasattr(response, output.name) and all(topics):
+            columns = [[message.data for message in scalars[topic][:count]] for topic in topics]
+            found[output.name] = _bounded(columns).T
+    return found
 
 
 def _bounded(values: list[list[float]]) -> FloatArray:

@@ -14,17 +14,18 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
 from ruamel.yaml import YAML
 
-from yawdamp_ros.logs import (
+from yawdamp_ros.logs import LogError
+from yawdamp_ros.runs import (
     BackgroundWriter,
     Channel,
-    LogError,
     RunWriter,
     default_run_directory,
     make_run_directory,
 )
 
 FLOAT64 = "std_msgs/msg/Float64"
-CHANNELS = [Channel("/steering", FLOAT64), Channel("/truck/yaw", FLOAT64)]
+NAMES = ("steering", "yaw")
+CHANNELS = {"steering": Channel("/steering", FLOAT64), "yaw": Channel("/truck/yaw", FLOAT64)}
 ONE = b"\x00\x01\x00\x00" + bytes(6) + b"\xf0\x3f"  # 1.0 in little-endian CDR
 
 
@@ -40,7 +41,7 @@ def writer_in(directory: Path) -> RunWriter:
 @pytest.fixture
 def run(tmp_path: Path) -> Path:
     writer = writer_in(tmp_path / "run")
-    messages = [(index % 2, 5_000_000_000 + index * 1_000_000, ONE) for index in range(1000)]
+    messages = [(NAMES[index % 2], 5_000_000_000 + index * 1_000_000, ONE) for index in range(1000)]
     for begin in range(0, 1000, 50):
         writer.write(messages[begin : begin + 50])
     writer.close()
@@ -122,7 +123,7 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
 
 def test_what_was_flushed_survives_a_kill(tmp_path: Path) -> None:
     writer = writer_in(tmp_path / "run")
-    writer.write([(0, index, ONE) for index in range(100)])
+    writer.write([(NAMES[0], index, ONE) for index in range(100)])
     writer.flush()
     with (tmp_path / "run" / "run_0.mcap").open("rb") as file:
         records = StreamReader(file).records
@@ -167,7 +168,7 @@ def test_a_full_disk_is_counted_and_does_not_stop_whoever_writes(tmp_path: Path)
     background = BackgroundWriter(writer_in(tmp_path / "run"))
     noise = [index.to_bytes(8, "little") * 16 for index in range(20_000)]
     for index, data in enumerate(noise):
-        background.offer([(0, index, data)])
+        background.offer([(NAMES[0], index, data)])
     background.close()
     assert background.failure is not None
     assert "cannot be recorded to" in str(background.failure)
@@ -177,7 +178,7 @@ def test_a_full_disk_is_counted_and_does_not_stop_whoever_writes(tmp_path: Path)
 def test_the_background_writer_loses_nothing_in_good_order(tmp_path: Path) -> None:
     background = BackgroundWriter(writer_in(tmp_path / "run"))
     for index in range(5000):
-        background.offer([(index % 2, index, ONE)])
+        background.offer([(NAMES[index % 2], index, ONE)])
     background.close()
     assert (background.failure, background.lost) == (None, 0)
     with AnyReader([tmp_path / "run"]) as reader:

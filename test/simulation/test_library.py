@@ -81,3 +81,10 @@ def test_steering_that_is_none_is_refused(steering: object) -> None:
         SteppingError, match=r"^steering: .*expected a function of time in s, or 2000 finite angles, one for"
     ):
         simulate("interlink", steering, 2.0)  # type: ignore[arg-type] - that is the mistake
+
+
+def test_a_motion_beyond_all_numbers_is_refused() -> None:
+    skidding = [f"units.0.axles.{axle}.cornering_stiffness=50000" for axle in (1, 2)]
+    vehicle = load_vehicle("interlink", skidding)
+    with pytest.raises(SteppingError, match=r"interlink: unstable, beyond all numbers at 101 s"):
+        simulate(vehicle, lambda _: 0.1, 1000.0, step_size=1.0)

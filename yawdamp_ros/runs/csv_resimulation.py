@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.errors import YawdampError
 from yawdamp_ros.stepping import Response, TimeGrid
 from yawdamp_ros.stepping.response import respond
 
@@ -54,17 +54,17 @@ def repeat(response: Response, model: LinearModel) -> Response:
 
     Raises
     ------
-    AnalysisError
+    YawdampError
         If the units are not the model's, or the samples do not lie on one grid of steps from 0 s.
     """
     if response.unit_names != model.vehicle.unit_names:
         message = f"units {', '.join(response.unit_names)}: expected {', '.join(model.vehicle.unit_names)}"
-        raise AnalysisError(message)
+        raise YawdampError(message)
     step_size = float(response.time[1]) if len(response.time) > 1 else 0.001
     grid = TimeGrid.of(step_size, step_size)
     if not np.array_equal(response.time, grid.seconds(np.arange(len(response.time)))):
         message = "time: expected one sample a step, from 0 s on"
-        raise AnalysisError(message)
+        raise YawdampError(message)
     return respond(model, response.steering_angle, grid)
 
 

@@ -9,15 +9,17 @@ from io import BufferedWriter, StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.logs.message_definitions import message_definition
+from yawdamp_ros.logs import LogError
+from yawdamp_ros.runs.message_definitions import message_definition
 
 CHUNK_SIZE = 4 * 1024 * 1024
 """Bytes. The writer keeps an index entry of every chunk: small ones would fill the memory of a long run."""
+QUEUE_DEPTH = 10
+"""Of every publisher, as its recording says, and of every subscription."""
 _INFINITE = {"sec": 9223372036, "nsec": 854775807}
 _QOS = {
     "history": "keep_last",
-    "depth": 10,
+    "depth": QUEUE_DEPTH,
     "reliability": "reliable",
     "durability": "volatile",
     "deadline": _INFINITE,
@@ -43,8 +45,8 @@ class Channel(NamedTuple):
     type_name: str
 
 
-SerialisedMessage = tuple[int, int, bytes]
-"""Index of its channel, simulated time in ns, and the message in CDR."""
+SerialisedMessage = tuple[str, int, bytes]
+"""Name of its channel, simulated time in ns, and the message in CDR."""
 
 
 class RunWriter:
@@ -54,8 +56,8 @@ class RunWriter:
     ----------
     directory : Path
         It is there, and empty: nothing in it is overwritten.
-    channels : sequence of Channel
-        Messages are written by their index in it.
+    channels : mapping of str to Channel
+        By the names by which messages are written.
     attachments : mapping of str to str
         Texts by file name, such as the vehicle file.
     metadata : mapping of str to mapping of str to str
@@ -70,7 +72,7 @@ class RunWriter:
     def __init__(
         self,
         directory: Path,
-        channels: Sequence[Channel],
+        channels: Mapping[str, Channel],
         attachments: Mapping[str, str],
         metadata: Mapping[str, Mapping[str, str]],
     ) -> None:
@@ -78,9 +80,11 @@ class RunWriter:
         from mcap.writer import CompressionType, Writer  # noqa: PLC0415
 
         self.directory = directory
-        self._definitions = [message_definition(channel.type_name) for channel in channels]
-        self._channels = tuple(channels)
-        self._counts = [0] * len(channels)
+        self._channels = dict(channels)
+        self._definitions = {
+            name: message_definition(channel.type_name) for name, channel in channels.items()
+        }
+        self._counts = dict.fromkeys(channels, 0)
         self._taken = self._flushed = 0
         self._first_time: int | None = None
         self._last_time = 0
@@ -154,29 +158,28 @@ class RunWriter:
             raise self._failure(error) from error
 
     def _register(self) -> None:
-        schemas = {
-            channel.type_name: self._writer.register_schema(
-                channel.type_name, "ros2msg", definition.text.encode()
-            )
-            for channel, definition in zip(self._channels, self._definitions, strict=True)
-        }
+        schemas: dict[str, int] = {}
+        self._ids: dict[str, int] = {}
         qos = _dump_yaml([_QOS])
-        self._ids = [
-            self._writer.register_channel(
-                topic=channel.topic,
+        for name, (topic, type_name) in self._channels.items():
+            definition = self._definitions[name]
+            if type_name not in schemas:
+                schemas[type_name] = self._writer.register_schema(
+                    type_name, "ros2msg", definition.text.encode()
+                )
+            self._ids[name] = self._writer.register_channel(
+                topic=topic,
                 message_encoding="cdr",
-                schema_id=schemas[channel.type_name],
+                schema_id=schemas[type_name],
                 metadata={"offered_qos_profiles": qos, "topic_type_hash": definition.type_hash},
             )
-            for channel, definition in zip(self._channels, self._definitions, strict=True)
-        ]
 
     def _information(self) -> dict[str, Any]:
         start = self._first_time or 0
         span = {
             "starting_time": {"nanoseconds_since_epoch": start},
             "duration": {"nanoseconds": max(self._last_time - start, 0)},
-            "message_count": sum(self._counts),
+            "message_count": sum(self._counts.values()),
         }
         return {
             "version": 9,
@@ -189,13 +192,11 @@ class RunWriter:
                         "type": channel.type_name,
                         "serialization_format": "cdr",
                         "offered_qos_profiles": [_QOS],
-                        "type_description_hash": definition.type_hash,
+                        "type_description_hash": self._definitions[name].type_hash,
                     },
-                    "message_count": count,
+                    "message_count": self._counts[name],
                 }
-                for channel, definition, count in zip(
-                    self._channels, self._definitions, self._counts, strict=True
-                )
+                for name, channel in self._channels.items()
             ],
             "compression_format": "",
             "compression_mode": "",

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from yawdamp_ros.nodes.deviations import Deviations, quantity
+from yawdamp_ros.runs.deviations import Deviations, quantity
 
 
 def test_values_of_all_units_and_joints_are_one_quantity() -> None:

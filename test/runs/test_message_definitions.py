@@ -2,7 +2,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from yawdamp_ros.logs import LogError
-from yawdamp_ros.logs.message_definitions import message_definition
+from yawdamp_ros.runs.message_definitions import message_definition
 
 TYPES = [
     "std_msgs/msg/Float64",

@@ -6,8 +6,8 @@ import pytest
 from yawdamp_ros import load_vehicle, simulate
 from yawdamp_ros.cli import run
 from yawdamp_ros.logs import LogError
-from yawdamp_ros.logs.response_recording import read_response_recording
 from yawdamp_ros.manoeuvres import Step
+from yawdamp_ros.runs.response_recording import read_response_recording
 
 
 def test_a_recorded_run_reads_back_as_the_response_that_it_is(tmp_path: Path) -> None:

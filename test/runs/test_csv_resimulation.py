@@ -12,8 +12,8 @@ import pytest
 
 from random_vehicles import made_up
 from yawdamp_ros import linear_model
-from yawdamp_ros.analysis.repetition import TOLERANCE, first_parting
 from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.runs.csv_resimulation import TOLERANCE, first_parting
 from yawdamp_ros.stepping import Response, TimeGrid
 from yawdamp_ros.stepping.response import respond
 

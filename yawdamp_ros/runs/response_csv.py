@@ -1,26 +1,13 @@
 """Runs as CSV files: one row a sample, SI units, full double precision."""
 
 import csv
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.stepping import Sample, TimeGrid
-
-UNIT_COLUMNS = ("yaw", "yaw_rate", "lateral_acceleration")
-
-
-def response_columns(unit_names: Sequence[str]) -> list[str]:
-    """Column names of a run of these units."""
-    joints = range(1, len(unit_names))
-    return [
-        "time",
-        "steering_angle",
-        *(f"{name}/{quantity}" for name in unit_names for quantity in UNIT_COLUMNS),
-        *(f"articulation_{joint}" for joint in joints),
-    ]
+from yawdamp_ros.logs import LogError
+from yawdamp_ros.runs.outputs import available, columns
+from yawdamp_ros.stepping import Motion, Sample, TimeGrid
 
 
 class ResponseCsv:
@@ -30,7 +17,8 @@ class ResponseCsv:
     ----------
     path : Path
         Written anew.
-    unit_names : sequence of str
+    motion : Motion
+        Whose samples they are.
     grid : TimeGrid
 
     Raises
@@ -39,22 +27,25 @@ class ResponseCsv:
         If the file cannot be written, here and at every write.
     """
 
-    def __init__(self, path: Path, unit_names: Sequence[str], grid: TimeGrid) -> None:
+    def __init__(self, path: Path, motion: Motion, grid: TimeGrid) -> None:
         self._path = path
         self._grid = grid
+        self._columns = columns(available(motion.quantity_names), motion.vehicle.unit_names)
         try:
             self._file = path.open("w", encoding="utf-8", newline="")
         except OSError as error:
             raise LogError(path, f"cannot be written: {error.strerror}") from error
         self._writer = csv.writer(self._file, lineterminator="\n")
-        self._writer.writerow(response_columns(unit_names))
+        self._writer.writerow(["time", *(name for name, _, _ in self._columns)])
 
     def write(self, sample: Sample) -> None:
         """Append a sample of one or more instants."""
         instants = np.size(sample.step)
-        units = np.stack([getattr(sample, quantity) for quantity in UNIT_COLUMNS], axis=-1)
-        parts = (self._grid.seconds(sample.step), sample.steering_angle, units, sample.articulation)
-        rows = np.hstack([np.reshape(part, (instants, np.size(part) // instants)) for part in parts])
+        values = {output.name: output.values(sample) for _, output, _ in self._columns}
+        rows = np.empty((instants, 1 + len(self._columns)))
+        rows[:, 0] = self._grid.seconds(sample.step)
+        for place, (_, output, index) in enumerate(self._columns, 1):
+            rows[:, place] = np.reshape(values[output.name], (instants, -1))[:, index]
         try:
             # repr of a float is the shortest text that reads back as the same double.
             self._writer.writerows(map(repr, row) for row in rows.tolist())

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from queue import Empty, Full, Queue
 
 from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.logs.run_writer import RunWriter, SerialisedMessage
+from yawdamp_ros.runs.run_writer import RunWriter, SerialisedMessage
 
 QUEUE_LENGTH = 6_000
 """Samples that may wait for the disk, a minute at 100 Hz."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from yawdamp_ros.cli import run
-from yawdamp_ros.logs.response_recording import read_response_recording
+from yawdamp_ros.runs.response_recording import read_response_recording
 
 RUNS = sorted((Path(__file__).parents[1] / "data" / "runs").iterdir())
 

@@ -2,7 +2,9 @@
 
 import json
 import struct
-from collections.abc import Iterator, Mapping
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, replace
 from itertools import chain, groupby
 from pathlib import Path
 from typing import Any
@@ -10,15 +12,14 @@ from typing import Any
 import numpy as np
 from rclpy.serialization import deserialize_message
 
-from yawdamp_ros.analysis.repetition import TOLERANCE
-from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.logs import LogError, McapLog, RecordedMessage
-from yawdamp_ros.nodes.deviations import Deviations, Difference, quantity
-from yawdamp_ros.nodes.messages import TWISTS, Noise, OutputMessages
-from yawdamp_ros.nodes.recording import METADATA_NAME, VEHICLE_FILE
-from yawdamp_ros.stepping import AppliedInput, Snapshot, Stepper
+from yawdamp_ros.runs.csv_resimulation import TOLERANCE
+from yawdamp_ros.runs.deviations import Deviations, Difference, quantity
+from yawdamp_ros.runs.encoder import TWISTS, Encoded, Encoder, message_class
+from yawdamp_ros.runs.recipe import METADATA_NAME, VEHICLE_FILE
+from yawdamp_ros.simulation import Run, SimParameters, make_motion
+from yawdamp_ros.stepping import AppliedInput, Command, TimeGrid
 from yawdamp_ros.stepping.build import build_of_numerics
-from yawdamp_ros.stepping.time_grid import SECOND
 from yawdamp_ros.vehicle import parse_vehicle
 
 SHORTEST_STEP = 1000
@@ -74,26 +75,33 @@ class Resimulation:
                 str(path),
                 json.loads(known["vehicle_overrides"]),
             )
-            self._model = linear_model(vehicle, float(known["speed"]), known["model"])
-            self._step_ns, self._start_time = int(known["step_ns"]), int(known["start_time_ns"])
-            self._inputs = {topic: name for name, topic in json.loads(known["input_topics"]).items()}
-            self._steps_per_sample = int(known["steps_per_sample"])
-            self._outputs: Mapping[str, str] = json.loads(known["output_topics"])
-            self._initial = Snapshot(**json.loads(known["initial"]))
-            parameters = json.loads(known["parameters"])
-            self._noise = Noise(
-                parameters.get("yaw_stddev", 0.0),
-                parameters.get("yaw_rate_stddev", 0.0),
-                parameters.get("lateral_acceleration_stddev", 0.0),
-                parameters.get("noise_seed", 0),
-            )
-            self._frame_prefix = parameters.get("frame_prefix", "")
-            self._twist = known.get("twist", TWISTS[-1])
-            self.recorded_build = known["build"]
-            if not (self._step_ns >= SHORTEST_STEP and 1 <= self._steps_per_sample <= MOST_STEPS):
-                message = f"steps of {self._step_ns} ns, {self._steps_per_sample} a sample"
+            self._grid = TimeGrid(int(known["step_ns"]), int(known["steps_per_sample"]))
+            if not (self._grid.step_ns >= SHORTEST_STEP and 1 <= self._grid.steps_per_sample <= MOST_STEPS):
+                message = f"steps of {self._grid.step_ns} ns, {self._grid.steps_per_sample} a sample"
                 raise ValueError(message)  # noqa: TRY301 - it is one of many ways not to be a run
-            self._start = self._at_the_start()
+            self._start_time = int(known["start_time_ns"])
+            self._inputs = {topic: name for name, topic in json.loads(known["input_topics"]).items()}
+            self._topics: Mapping[str, str] = dict(json.loads(known["output_topics"]))
+            if not self._topics:
+                message = "no outputs"
+                raise ValueError(message)  # noqa: TRY301 - as below
+            self.recorded_build = known["build"]
+            motion = make_motion(vehicle, known["model"], float(known["speed"]), self._grid.step_size)
+            initial = json.loads(known["initial"])
+            motion.restore(initial)
+            self._encoder = Encoder(
+                motion,
+                self._settings(dict(json.loads(known["parameters"]))),
+                self._grid,
+                self._start_time,
+                twist=known.get("twist", TWISTS[-1]),
+            )
+            self._encoder.sinks.append(self)
+            self._source = _Recorded(motion.steering_angle)
+            self._run = Run(motion, self._grid, self._source, [self._encoder])
+            self._begun = bool(initial["sampled"])
+            if self._begun:  # the recording goes on from a sample that is not in it
+                self._encoder.go_on_from(motion.step, motion.steering_angle)
         except Exception as error:  # whatever its texts hold in place of what they should
             why = self._log.warning or error
             raise LogError(path, f"not a run of this package, or not a whole one: {why}") from error
@@ -105,6 +113,7 @@ class Resimulation:
         self.bit_identical = True
         self._value_counts: dict[str, int] = {}
         self._deviations = Deviations()
+        self._recorded: Mapping[str, bytes] = {}
 
     @property
     def agrees(self) -> bool:
@@ -136,60 +145,66 @@ class Resimulation:
                 self._log.path, f"cannot be run again beyond {self.duration:g} s: {error}"
             ) from error
 
+    def write(self, encoded: Encoded) -> None:
+        """Compare a sample of the repetition with what was recorded at its instant; see `EncodedSink`."""
+        for name, data in zip(encoded.names, encoded.messages[0], strict=True):
+            # An output that came after the version that recorded the run is not in it.
+            if self.difference is None and name in self._topics:
+                self._compare(self._topics[name], self._encoder.types[name], data)
+
+    def close(self) -> None:
+        """See `EncodedSink`."""
+
     def _compared(self) -> Iterator[float]:
-        outputs, stepper = self._start
-        due = stepper.step + (self._steps_per_sample if self._initial.sampled else 0)
+        run, source = self._run, self._source
+        due = run.motion.step + (self._grid.steps_per_sample if self._begun else 0)
         for step, inputs, recorded in self._instants():
             if step > due or (recorded and step != due):
-                missing = due * self._step_ns / SECOND
+                missing = self._grid.seconds(due)
                 self._part(Difference("every output", missing, "", "no sample", "a sample"))
                 return
-            with np.errstate(all="ignore"):  # what overflows is no number, and so a difference
-                stepper.advance(step - stepper.step)
-            for applied in inputs:
-                stepper.apply(applied)
+            source.add(inputs)
             if not recorded:
                 continue
-            due += self._steps_per_sample
-            self.duration = step * self._step_ns / SECOND
-            [repeated] = outputs.serialised(stepper.sample(), [self._start_time + step * self._step_ns])
-            for (name, kind), data in zip(outputs.types.items(), repeated, strict=True):
-                self._compare(self._outputs[name], kind, recorded, data)
-                if self.difference is not None:
-                    return
+            self._recorded = recorded
+            self.duration = self._grid.seconds(step)
+            with np.errstate(all="ignore"):  # what overflows is no number, and so a difference
+                if step == run.motion.step:
+                    run.start()
+                else:
+                    run.advance()
+            if self.difference is not None:
+                return
+            due += self._grid.steps_per_sample
             self.samples += 1
             yield self.duration
         if self._deviations.found:
             self.difference = self._deviations.first_beyond(TOLERANCE, self._sizes())
 
-    def _at_the_start(self) -> tuple[OutputMessages, Stepper]:
-        """What the messages and the model were when the recording began."""
-        scalars = any(name.endswith("/yaw") for name in self._outputs)
-        names = self._model.vehicle.unit_names
-        outputs = OutputMessages(
-            names,
-            publish_scalars=scalars,
-            noise=self._noise,
-            frame_prefix=self._frame_prefix,
-            twist=self._twist,
+    def _settings(self, parameters: Mapping[str, Any]) -> SimParameters:
+        """What of the settings shows in the messages; earlier versions wrote other ones, too."""
+        shown = [
+            field.name
+            for field in fields(SimParameters)
+            if field.name.endswith("_stddev") or field.name in {"noise_seed", "frame_prefix"}
+        ]
+        return replace(
+            SimParameters(),
+            publish_scalars=any(name.endswith("/yaw") for name in self._topics),
+            **{name: parameters[name] for name in shown if name in parameters},
         )
-        stepper = Stepper(self._model, self._step_ns / SECOND)
-        stepper.restore(self._initial)
-        if self._initial.sampled:  # the recording goes on from a sample that is not in it
-            stamp = self._start_time + self._initial.step * self._step_ns
-            outputs.go_on_from(stamp, stepper.steering_angle)
-        return outputs, stepper
 
     def _instants(self) -> Iterator[tuple[int, list[AppliedInput], dict[str, bytes]]]:
         """Step, inputs, and outputs by topic, of every instant at which something was recorded."""
+        topics = frozenset(self._topics.values())
         messages = chain([self._first] if self._first is not None else [], self._messages)
         for log_time, group in groupby(messages, key=lambda message: message.log_time):
-            step = (log_time - self._start_time) // self._step_ns
+            step = (log_time - self._start_time) // self._grid.step_ns
             inputs, outputs = [], {}
             for message in group:
                 if message.topic in self._inputs:
                     inputs.append(self._applied(message, step))
-                else:
+                elif message.topic in topics:
                     outputs[message.topic] = message.data
             if self.warning:  # the last instant of a run that was cut off need not be whole
                 return
@@ -201,7 +216,8 @@ class Resimulation:
         value = 0.0 if name == "reset" else struct.unpack_from("<d", message.data, 4)[0]
         return AppliedInput(step, name, value)
 
-    def _compare(self, topic: str, kind: type, recorded: Mapping[str, bytes], repeated: bytes) -> None:
+    def _compare(self, topic: str, type_name: str, repeated: bytes) -> None:
+        recorded, kind = self._recorded, message_class(type_name)
         if topic not in recorded:
             self._part(Difference(topic, self.duration, "", "no message", "a message"))
             return
@@ -237,7 +253,11 @@ class Resimulation:
 
     def _sizes(self) -> dict[str, float]:
         """Largest magnitude of every quantity over the run."""
-        kinds = {self._outputs[name]: kind for name, kind in self._start[0].types.items()}
+        kinds = {
+            self._topics[name]: message_class(kind)
+            for name, kind in self._encoder.types.items()
+            if name in self._topics
+        }
         sizes: dict[str, float] = {}
         for message in McapLog(self._log.path).messages():
             if message.topic in kinds:
@@ -260,3 +280,44 @@ def _values(message: Any, path: str = "") -> Iterator[tuple[str, Value]]:  # noq
             yield from _values(value, f"{path}[{index}]")
     else:
         yield path, message
+
+
+class _Recorded:
+    """The source of a run that is run again: inputs with the steps at which they took effect.
+
+    Parameters
+    ----------
+    steering_angle : float
+        In force before the first of them, rad.
+    """
+
+    def __init__(self, steering_angle: float) -> None:
+        self._angle = steering_angle
+        self._steering: deque[AppliedInput] = deque()
+        self._others: list[AppliedInput] = []
+
+    def add(self, inputs: Sequence[AppliedInput]) -> None:
+        """Have inputs act when their steps come."""
+        for applied in inputs:
+            (self._steering if applied.name == "steering" else self._others).append(applied)
+
+    def inputs(self, _steps: range) -> Sequence[AppliedInput]:
+        """See `Source`."""
+        others, self._others = self._others, []
+        return others
+
+    def steering(self, steps: range) -> Sequence[float]:
+        """See `Source`."""
+        angles = np.empty(len(steps))
+        begin = 0
+        while self._steering:
+            applied = self._steering.popleft()
+            end = applied.step - steps.start
+            angles[begin:end] = self._angle
+            self._angle, begin = applied.value, max(end, 0)
+        angles[begin:] = self._angle
+        return angles  # type: ignore[return-value]
+
+    def received(self) -> tuple[Command, ...]:
+        """See `Source`."""
+        return ()

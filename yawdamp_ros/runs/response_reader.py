@@ -1,15 +1,15 @@
 """Runs read back from the CSV files that `simulate` writes."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 
-from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.logs import LogError
 from yawdamp_ros.logs.csv_file import csv_reader
-from yawdamp_ros.logs.errors import LogError
-from yawdamp_ros.logs.response_csv import UNIT_COLUMNS
+from yawdamp_ros.runs import outputs
 from yawdamp_ros.stepping import Response
 
 LARGEST_VALUE = 1e30
@@ -23,7 +23,8 @@ def read_response_csv(path: Path) -> Response:
     ----------
     path : Path
         Columns ``time``, ``steering_angle``, for every unit ``<unit>/yaw``, ``<unit>/yaw_rate`` and
-        ``<unit>/lateral_acceleration``, and ``articulation_1`` onwards, in any order; SI units.
+        ``<unit>/lateral_acceleration``, and ``articulation_1`` onwards, in any order; SI units. Those of the
+        other outputs of one number are read where they are there.
 
     Returns
     -------
@@ -44,9 +45,9 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
     units = tuple(name.removesuffix("/yaw") for name in header if name.endswith("/yaw"))
     if not units:
         raise LogError(path, "no column <unit>/yaw; expected a run as simulate --output FILE.csv writes it")
-    joints = [f"articulation_{joint}" for joint in range(1, len(units))]
-    per_unit = {quantity: [f"{unit}/{quantity}" for unit in units] for quantity in UNIT_COLUMNS}
-    expected = ["time", "steering_angle", *joints, *(name for names in per_unit.values() for name in names)]
+    needed = {field.name for field in fields(Response)}
+    known = {output.name: output.names(units) for output in outputs.OUTPUTS if output.unit}
+    expected = ["time", *(name for key in known if key in needed for name in known[key])]
     places = {name: place for place, name in enumerate(header)}
     if len(places) < len(header):
         twice = next(name for place, name in enumerate(header) if places[name] != place)
@@ -57,21 +58,23 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
     table = np.array([_numbers(row, header, number, path) for number, row in enumerate(rows, 2) if row])
     if not len(table):
         raise LogError(path, "no rows below the column names; expected at least one sample")
-
-    def columns(names: Iterable[str]) -> FloatArray:
-        return table[:, [places[name] for name in names]]
-
+    found = {
+        key: table[:, [places[name] for name in names]]
+        for key, names in known.items()
+        if places.keys() >= set(names)
+    }
     unknown = np.full((len(table), len(units)), np.nan)
     return Response(
         unit_names=units,
-        time=columns(["time"])[:, 0],
-        steering_angle=columns(["steering_angle"])[:, 0],
-        yaw=columns(per_unit["yaw"]),
-        yaw_rate=columns(per_unit["yaw_rate"]),
-        lateral_acceleration=columns(per_unit["lateral_acceleration"]),
-        articulation=columns(joints),
+        time=table[:, places["time"]],
+        steering_angle=found["steering_angle"][:, 0],
+        yaw=found["yaw"],
+        yaw_rate=found["yaw_rate"],
+        lateral_acceleration=found["lateral_acceleration"],
+        articulation=found["articulation"],
         x=unknown,
         y=unknown,
+        extra={key: values for key, values in found.items() if key not in needed},
     )
 
 

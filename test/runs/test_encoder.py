@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+from geometry_msgs.msg import Quaternion
+from nav_msgs.msg import Odometry
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import Imu
+
+from yawdamp_ros import load_vehicle
+from yawdamp_ros.runs.encoder import Encoder, Noise, message_class
+from yawdamp_ros.simulation import SimParameters, make_motion
+from yawdamp_ros.stepping import Motion, TimeGrid
+
+NOISY = {"yaw_stddev": 0.01, "yaw_rate_stddev": 0.02, "lateral_acceleration_stddev": 0.3, "noise_seed": 7}
+
+
+def encoder(vehicle: str, step_size: float, noise: dict[str, float]) -> tuple[Motion, Encoder]:
+    motion = make_motion(load_vehicle(vehicle), "consistent", None, step_size)
+    grid = TimeGrid.of(step_size, 10 * step_size)
+    return motion, Encoder(motion, SimParameters(**noise), grid, start_time=1_000)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["single_vehicle", "truck_trailer", "interlink"])
+@pytest.mark.parametrize("noise", [{}, NOISY])
+def test_messages_of_many_instants_are_those_of_each(name: str, noise: dict[str, float]) -> None:
+    angles = 0.05 * np.sin(np.arange(1, 401) / 90)
+    (one, of_one), (many, of_many) = (encoder(name, 0.001, noise) for _ in range(2))
+    each = [of_one.encoded(one.run(angles[begin : begin + 10])) for begin in range(0, 400, 10)]
+    together = of_many.encoded(many.run(angles, 10))
+    assert together.stamps == [stamp for encoded in each for stamp in encoded.stamps]
+    assert together.stamps[0] == 1_000 + 10_000_000
+    # Decoded, as padding between fields holds whatever was there.
+    for found, expected in zip(together.messages, each, strict=True):
+        for data, other, kind in zip(found, expected.messages[0], of_one.types.values(), strict=True):
+            read = message_class(kind)
+            assert deserialize_message(data, read) == deserialize_message(other, read)
+
+
+def test_orientation_is_the_yaw_and_noise_is_on_imu_alone() -> None:
+    motion, encodes = encoder("truck_trailer", 0.01, {"yaw_stddev": 0.01, "noise_seed": 3})
+    sample = motion.run([0.2] * 1500)  # more than a turn
+    by_topic = dict(zip(encodes.types, encodes.encoded(sample).messages[0], strict=True))
+
+    def yaw(orientation: Quaternion) -> complex:
+        return complex(orientation.w, orientation.z) ** 2
+
+    drawn = Noise(0.01, 0.0, 0.0, 3).of_step(1500, 2)[0]
+    assert abs(sample.yaw[0]) > 2.0 * np.pi
+    for unit, name in enumerate(motion.vehicle.unit_names):
+        odometry = deserialize_message(by_topic[f"{name}/odom"], Odometry)
+        imu = deserialize_message(by_topic[f"{name}/imu"], Imu)
+        exact = np.exp(1j * sample.yaw[unit])
+        assert yaw(odometry.pose.pose.orientation) == pytest.approx(exact, abs=1e-13)
+        assert yaw(imu.orientation) == pytest.approx(exact * np.exp(1j * drawn[unit]), abs=1e-13)
+        assert imu.angular_velocity.z == sample.yaw_rate[unit]

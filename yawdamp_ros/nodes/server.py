@@ -1,0 +1,191 @@
+"""How a simulator is served: by a steady clock, services and parameters."""
+
+import time
+
+from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_srvs.srv import SetBool, Trigger
+
+from yawdamp_ros.analysis import least_damping_ratio
+from yawdamp_ros.errors import YawdampError
+from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
+from yawdamp_ros.nodes.errors import NodeError
+from yawdamp_ros.nodes.neighbours import Neighbours
+from yawdamp_ros.nodes.parameters import changed
+from yawdamp_ros.nodes.sim import Simulator
+from yawdamp_ros.nodes.states import RecorderState, Reply, answer
+from yawdamp_ros.nodes.subscriptions import STEADY
+from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
+from yawdamp_ros.stepping import Pacer
+from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
+
+WARNING_PERIOD = 5.0
+"""Seconds between warnings of one kind."""
+DIAGNOSTICS_PERIOD = 1.0
+"""Seconds of real time."""
+
+
+class Server:
+    """Advances a simulator as the steady clock asks for, from its making on, and answers for it.
+
+    Parameters
+    ----------
+    node : Node
+    simulator : Simulator
+        Its first sample is published.
+
+    Attributes
+    ----------
+    steps_dropped : int
+        Too late to be made up for.
+    """
+
+    def __init__(self, node: Node, simulator: Simulator) -> None:
+        self._node = node
+        self._simulator = simulator
+        self.steps_dropped = 0
+        self._worst_lateness = 0.0
+        self._loss_said = 0
+        self._diagnosis = Diagnosis(node.get_fully_qualified_name(), simulator.motion.vehicle.name)
+        self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", QUEUE_DEPTH)
+        self._neighbours = Neighbours(node, ("steering", "speed"), simulator.topics.names)
+        node.add_on_set_parameters_callback(self._check_parameters)
+        node.add_post_set_parameters_callback(self._use_parameters)
+        node.create_service(Trigger, "~/reset", self._on_reset)
+        node.create_service(SetBool, "~/pause", self._on_pause)
+        node.create_service(Trigger, "~/step", self._on_step)
+        node.create_service(SetBool, "~/record", self._on_record)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        node.create_timer(DIAGNOSTICS_PERIOD, self._diagnose, clock=steady)
+        self._looked_at = time.monotonic_ns()
+        # The pacer comes before the timer, so that a period is over whenever the timer fires.
+        rate = simulator.settings.real_time_factor
+        self._pacer = Pacer(simulator.grid.period_ns, rate, time.monotonic_ns())
+        self._timer = node.create_timer(self._timer_period(), self._on_timer, clock=steady)
+
+    def _on_timer(self) -> None:
+        due = self._pacer.due(time.monotonic_ns())
+        self._worst_lateness = max(self._worst_lateness, due.lateness / SECOND)
+        if due.given_up:
+            self.steps_dropped += due.given_up * self._simulator.grid.steps_per_sample
+            self._node.get_logger().warning(
+                f"late by more than can be made up for: {self.steps_dropped} steps given up so far",
+                throttle_duration_sec=WARNING_PERIOD,
+                throttle_time_source_type=STEADY,
+            )
+        for _ in range(due.periods):
+            if self._simulator.finished:
+                self._timer.cancel()
+                break
+            self._simulator.advance()
+
+    def _timer_period(self) -> float:
+        rate = self._simulator.settings.real_time_factor
+        return self._simulator.grid.period_ns / SECOND / rate if rate else 0.0
+
+    def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
+        try:
+            changed(self._simulator.settings, parameters)
+        except NodeError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _use_parameters(self, parameters: list[Parameter]) -> None:
+        before = self._simulator.settings
+        self._simulator.change(changed(before, parameters))
+        rate = self._simulator.settings.real_time_factor
+        if rate != before.real_time_factor:
+            self._pacer.change_rate(rate, time.monotonic_ns())
+            self._timer.timer_period_ns = nanoseconds(self._timer_period())
+
+    def _on_reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._simulator.commands.reset()
+        response.success = True
+        response.message = answer(Reply.RESET, "at rest at the origin from the next step on")
+        return response
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        if request.data:
+            self._pacer.pause(time.monotonic_ns())
+        else:
+            self._pacer.resume(time.monotonic_ns())
+        response.success = True
+        response.message = (
+            answer(Reply.PAUSED, "time stands") if request.data else answer(Reply.RUNNING, "time goes on")
+        )
+        return response
+
+    def _on_step(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        run = self._simulator.run
+        response.success = self._pacer.paused and not self._simulator.finished
+        if response.success:
+            self._simulator.advance()
+            response.success = run.stopped is None
+            response.message = (
+                answer(Reply.STOPPED, run.stopped.reason)
+                if run.stopped
+                else answer(Reply.STEPPED, f"simulated time {run.time:.9g} s")
+            )
+        elif self._simulator.finished:
+            response.message = answer(Reply.STOPPED, "the run is over")
+        else:
+            response.message = answer(Reply.NOT_PAUSED, "call ~/pause first")
+        return response
+
+    def _on_record(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        recorder = self._simulator.recorder
+        try:
+            if request.data:
+                self._simulator.start_recording(numbered=True)
+                self._node.get_logger().info(f"recording to {recorder.directory}")
+            else:
+                recorder.stop()
+        except YawdampError as error:
+            response.success, response.message = False, answer(RecorderState.FAILED, str(error))
+            return response
+        response.success = recorder.failure is None
+        response.message = answer(recorder.state, recorder.detail)
+        return response
+
+    def _diagnose(self) -> None:
+        now = time.monotonic_ns()
+        elapsed, self._looked_at = (now - self._looked_at) / SECOND, now
+        self._diagnostics.publish(self._diagnosis.of(self._readings(), elapsed, time.time_ns()))
+        self._worst_lateness = 0.0
+        recorder = self._simulator.recorder
+        if recorder.lost > self._loss_said:
+            self._loss_said = recorder.lost
+            reason = recorder.failure or "the disk does not keep up"
+            self._node.get_logger().error(
+                f"{reason}; {self._loss_said} messages not recorded, the simulation goes on",
+                throttle_duration_sec=WARNING_PERIOD,
+                throttle_time_source_type=STEADY,
+            )
+
+    def _readings(self) -> Readings:
+        simulator = self._simulator
+        settings, motion, commands = simulator.settings, simulator.motion, simulator.commands
+        steering, recorder = commands.steering_input, simulator.recorder
+        silence = steering.silence(motion.step)
+        return Readings(
+            samples=simulator.run.samples,
+            rate_wanted=settings.publish_rate * settings.real_time_factor,
+            worst_lateness=self._worst_lateness,
+            steps_dropped=self.steps_dropped,
+            simulated_time=simulator.run.time,
+            paused=self._pacer.paused,
+            steering_age=None if silence is None else simulator.grid.seconds(silence),
+            steering_timed_out=steering.timed_out(motion.step),
+            manoeuvre="" if settings.manoeuvre == "none" else settings.manoeuvre,
+            commands=dict(steering.counts),
+            speeds=dict(commands.speed_input.counts),
+            neighbourhood=self._neighbours.look(),
+            recorder=recorder.state,
+            recorder_detail=recorder.detail,
+            messages_lost=recorder.lost,
+            least_damping_ratio=least_damping_ratio(motion.linearise()),
+            speed=motion.speed,
+        )

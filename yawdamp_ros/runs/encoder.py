@@ -1,0 +1,300 @@
+"""From samples to messages, each serialised once for whoever wants it."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from importlib import import_module
+from types import MappingProxyType
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray
+from yawdamp_ros.runs.outputs import FLOAT64, Output, available, quantity
+from yawdamp_ros.runs.templates import Blank, Templates
+from yawdamp_ros.simulation import SimParameters
+from yawdamp_ros.stepping import Motion, Sample, TimeGrid
+from yawdamp_ros.stepping.pose import half_turns
+from yawdamp_ros.stepping.time_grid import SECOND
+from yawdamp_ros.vehicle import STANDARD_GRAVITY
+
+TWISTS = ("rate of the pose", "small angles")
+"""What the twist of an odometry message is: earlier recordings hold that of the linear model."""
+
+
+class Noise(NamedTuple):
+    """Normally distributed noise on what the imu topics hold, and nothing else.
+
+    It depends on the seed and the step alone, so that it repeats wherever a run is taken up.
+
+    Attributes
+    ----------
+    yaw, yaw_rate, lateral_acceleration : float
+        Standard deviations in rad, rad/s and m/s^2.
+    seed : int
+    """
+
+    yaw: float = 0.0
+    yaw_rate: float = 0.0
+    lateral_acceleration: float = 0.0
+    seed: int = 0
+
+    @classmethod
+    def of(cls, settings: SimParameters) -> "Noise":
+        """Noise that settings ask for."""
+        return cls(
+            settings.yaw_stddev,
+            settings.yaw_rate_stddev,
+            settings.lateral_acceleration_stddev,
+            settings.noise_seed,
+        )
+
+    @property
+    def present(self) -> bool:
+        """Whether there is any."""
+        return any(self[:3])
+
+    def of_step(self, step: int, units: int) -> FloatArray:
+        """Noise on yaw, yaw rate and lateral acceleration of every unit at a step, shape (3, units)."""
+        generator = np.random.default_rng([self.seed, step])
+        return (generator.standard_normal((units, 3)) * self[:3]).T
+
+
+class Encoded(NamedTuple):
+    """A sample and its messages.
+
+    Attributes
+    ----------
+    sample : Sample
+        Of m instants.
+    stamps : list of int
+        Of the instants, in ns.
+    names : tuple of str
+        Relative topics.
+    messages : list of list of bytes
+        For each instant the message of every name, in CDR.
+    stamp : callable
+        Stamp in ns of any step.
+    """
+
+    sample: Sample
+    stamps: list[int]
+    names: tuple[str, ...]
+    messages: list[list[bytes]]
+    stamp: Callable[[int], int]
+
+
+class EncodedSink(Protocol):
+    """Takes samples with their messages: publishers, a recording."""
+
+    def write(self, encoded: Encoded) -> None:
+        """Take a sample."""
+
+    def close(self) -> None:
+        """Finish."""
+
+
+class Encoder:
+    """Serialises samples, and hands each to those that publish it or write it down.
+
+    Parameters
+    ----------
+    motion : Motion
+        Whose samples they are.
+    settings : SimParameters
+    grid : TimeGrid
+    start_time : int
+        Stamp of step 0 in ns.
+    twist : str
+        One of `TWISTS`; other than the first only of what was recorded so.
+
+    Attributes
+    ----------
+    types : dict of str to str
+        Message type by relative topic, in the order of `Encoded.names`.
+    sinks : list of EncodedSink
+        Told of every sample in this order.
+    """
+
+    def __init__(
+        self,
+        motion: Motion,
+        settings: SimParameters,
+        grid: TimeGrid,
+        start_time: int,
+        twist: str = TWISTS[0],
+    ) -> None:
+        self.types: dict[str, str] = {}
+        self.sinks: list[EncodedSink] = []
+        self._grid = grid
+        self._twist = twist
+        self._start_time = start_time
+        self._unit_names = motion.vehicle.unit_names
+        self._noise = Noise.of(settings)
+        self._frame_prefix = settings.frame_prefix
+        self._last_steering: tuple[int, float] | None = None
+        outputs = [
+            output
+            for output in available(motion.quantity_names)
+            if output.type_name and (settings.publish_scalars or output.type_name != FLOAT64)
+        ]
+        self._own = {output.name: output.value for output in outputs if output.value is not None}
+        self._columns: dict[str, tuple[int, int]] = {}
+        self._width = 0
+        blanks = [
+            self._blank(output, index, name)
+            for output in outputs
+            for index, name in enumerate(output.names(self._unit_names))
+        ]
+        for output in outputs:
+            self.types |= dict.fromkeys(output.names(self._unit_names), output.type_name)
+        self._names = tuple(self.types)
+        self._templates = Templates(blanks)
+
+    def go_on_from(self, step: int, steering_angle: float) -> None:
+        """Take up a run after a sample: the steering rate is told from one to the next."""
+        self._last_steering = self._stamp(step), steering_angle
+
+    def write(self, sample: Sample) -> None:
+        """Serialise a sample and hand it on."""
+        encoded = self.encoded(sample)
+        for sink in self.sinks:
+            sink.write(encoded)
+
+    def close(self) -> None:
+        """Let all that it hands to finish."""
+        for sink in self.sinks:
+            sink.close()
+
+    def encoded(self, sample: Sample) -> Encoded:
+        """A sample with its messages."""
+        stamps = [self._stamp(step) for step in np.atleast_1d(sample.step).tolist()]
+        known = self._made(sample, stamps)
+        values = np.empty((len(stamps), self._width))
+        for name, (start, width) in self._columns.items():
+            found = known[name] if name in known else quantity(sample, name)
+            values[:, start : start + width] = (
+                np.reshape(found, (len(stamps), width)) if np.ndim(found) else found
+            )
+        return Encoded(sample, stamps, self._names, self._templates.filled(values, stamps), self._stamp)
+
+    def _made(self, sample: Sample, stamps: Sequence[int]) -> dict[str, FloatArray]:
+        """Quantities that are not in a sample as they are."""
+        half = half_turns(sample.heading)
+        velocity = sample.velocity if self._twist == TWISTS[0] else _small_angles(sample)
+        known = {
+            "z": half.imag,
+            "w": half.real,
+            "imu_z": half.imag,
+            "imu_w": half.real,
+            "imu_yaw_rate": sample.yaw_rate,
+            "imu_lateral_acceleration": sample.lateral_acceleration,
+            "forward": velocity.real,
+            "sideways": velocity.imag,
+            "steering_rate": self._steering_rates(sample.steering_angle, stamps),
+        }
+        if self._noise.present:
+            steps, shape = np.atleast_1d(sample.step).tolist(), sample.yaw.shape
+            noise = np.array([self._noise.of_step(step, shape[-1]) for step in steps])
+            yaw, yaw_rate, lateral_acceleration = (np.reshape(noise[:, part], shape) for part in range(3))
+            half = half * np.exp(0.5j * yaw)
+            known |= {
+                "imu_z": half.imag,
+                "imu_w": half.real,
+                "imu_yaw_rate": sample.yaw_rate + yaw_rate,
+                "imu_lateral_acceleration": sample.lateral_acceleration + lateral_acceleration,
+            }
+        for name, value in self._own.items():
+            known[name] = value(sample)
+        return known
+
+    def _steering_rates(self, angles: FloatArray, stamps: Sequence[int]) -> FloatArray:
+        rates = []
+        for stamp, angle in zip(stamps, np.atleast_1d(angles).tolist(), strict=True):
+            rate = 0.0
+            if self._last_steering is not None and stamp > self._last_steering[0]:
+                rate = (angle - self._last_steering[1]) / ((stamp - self._last_steering[0]) / SECOND)
+            rates.append(rate)
+            self._last_steering = stamp, angle
+        return np.array(rates)
+
+    def _stamp(self, step: int) -> int:
+        return self._start_time + step * self._grid.step_ns
+
+    def _blank(self, output: Output, index: int, name: str) -> Blank:
+        """The message of a unit, a joint or the run, and where in it which numbers go."""
+        message = message_class(output.type_name)()
+        if prepare := self._PREPARATIONS.get(output.type_name):
+            prepare(self, message, name.rpartition("/")[0])
+        places: dict[str, int] = {}
+        for path, wanted in output.fields.items():
+            if "{joint}" in path:
+                start = self._column(wanted, len(self._unit_names) - 1)
+                places |= {
+                    path.format(joint=joint): start + joint - 1 for joint in range(1, len(self._unit_names))
+                }
+            else:
+                places[path] = index + self._column(wanted, len(output.names(self._unit_names)))
+        return Blank(message, places)
+
+    def _column(self, name: str, width: int) -> int:
+        """First of the columns of values that hold a quantity."""
+        if name not in self._columns:
+            self._columns[name] = self._width, width
+            self._width += width
+        return self._columns[name][0]
+
+    def _prepare_imu(self, message: Any, unit: str) -> None:  # noqa: ANN401 - a generated message
+        message.header.frame_id = self._frame_prefix + unit
+        # An accelerometer at rest shows gravity upwards (REP-145).
+        message.linear_acceleration.z = STANDARD_GRAVITY
+        # All zeros mean that a covariance is not known (REP-145); without noise there is none to know.
+        for covariance, deviation in (
+            (message.orientation_covariance, self._noise.yaw),
+            (message.angular_velocity_covariance, self._noise.yaw_rate),
+            (message.linear_acceleration_covariance, self._noise.lateral_acceleration),
+        ):
+            covariance[::4] = deviation**2
+
+    def _prepare_odometry(self, message: Any, unit: str) -> None:  # noqa: ANN401
+        message.header.frame_id = f"{self._frame_prefix}odom"
+        message.child_frame_id = self._frame_prefix + unit
+
+    def _prepare_joint_states(self, message: Any, _: str) -> None:  # noqa: ANN401
+        joints = range(1, len(self._unit_names))
+        message.name = ["steering", *(f"articulation_{joint}" for joint in joints)]
+        # Filled though it means nothing here: a message that ends in an empty float64[] is padded in a way
+        # that some readers reject.
+        message.position = message.velocity = message.effort = [0.0] * len(message.name)
+
+    _PREPARATIONS: Mapping[str, Callable[["Encoder", Any, str], None]] = MappingProxyType(
+        {
+            "sensor_msgs/msg/Imu": _prepare_imu,
+            "nav_msgs/msg/Odometry": _prepare_odometry,
+            "sensor_msgs/msg/JointState": _prepare_joint_states,
+        }
+    )
+
+
+def _small_angles(sample: Sample) -> ComplexArray:
+    """Velocities in the frames of the units as the linear model has them."""
+    velocity = np.empty_like(sample.velocity)
+    velocity.real, velocity.imag = sample.velocity.real[..., :1], sample.lateral_velocity
+    return velocity
+
+
+@cache
+def message_class(type_name: str) -> Any:  # noqa: ANN401 - generated classes share no base
+    """Class of a message type such as ``sensor_msgs/msg/Imu``.
+
+    Raises
+    ------
+    ImportError, AttributeError
+        If the package that defines it is not installed.
+    """
+    package, _, name = type_name.split("/")
+    return getattr(import_module(f"{package}.msg"), name)
+
+
+def type_name(message_class: Any) -> str:  # noqa: ANN401
+    """Name of a message class, as in ``sensor_msgs/msg/Imu``."""
+    return f"{message_class.__module__.split('.')[0]}/msg/{message_class.__name__}"

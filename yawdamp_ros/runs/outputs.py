@@ -1,0 +1,164 @@
+"""Everything that comes out of a run, in one table.
+
+Topics, channels of recordings, columns of CSV files, curves of pictures and the table in the README follow
+from it. No ROS is needed to read it.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from enum import Enum
+from types import MappingProxyType
+from typing import NamedTuple
+
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.stepping import Response, Sample
+
+FLOAT64 = "std_msgs/msg/Float64"
+
+
+class Of(Enum):
+    """What there is one of."""
+
+    RUN = "run"
+    UNIT = "unit"
+    JOINT = "joint"
+
+
+class Output(NamedTuple):
+    """Something that comes out of a run.
+
+    Attributes
+    ----------
+    name : str
+        Its topic and its column, behind ``<unit>/`` or before ``_<joint>`` where there are several.
+    of : Of
+    description : str
+    unit : str
+        Empty where it holds several quantities; then it is no column.
+    type_name : str
+        Of its message; empty where it is no topic.
+    fields : mapping of str to str
+        Quantity by path of the double in the message that holds it; ``{joint}`` stands for every joint.
+    held : bool
+        Whether a value holds until the next; else it changes towards it.
+    value : callable, optional
+        Of its own quantity from a sample, where that is neither a field of it nor in its `Sample.extra`.
+    """
+
+    name: str
+    of: Of
+    description: str
+    unit: str = ""
+    type_name: str = ""
+    fields: Mapping[str, str] = MappingProxyType({})
+    held: bool = False
+    value: Callable[[Sample], FloatArray] | None = None
+
+    def names(self, unit_names: Sequence[str]) -> list[str]:
+        """Topics, or columns, for these units."""
+        if self.of is Of.UNIT:
+            return [f"{unit}/{self.name}" for unit in unit_names]
+        if self.of is Of.JOINT:
+            return [f"{self.name}_{joint}" for joint in range(1, len(unit_names))]
+        return [self.name]
+
+    def values(self, sample: Sample) -> FloatArray:
+        """Its own quantity, of the shapes of `Sample`."""
+        return quantity(sample, self.name) if self.value is None else self.value(sample)
+
+
+def scalar(name: str, of: Of, description: str, unit: str) -> Output:
+    """An output that is one number, as a topic and as a column."""
+    return Output(name, of, description, unit, FLOAT64, {"data": name})
+
+
+OUTPUTS: tuple[Output, ...] = (
+    Output("steering_angle", Of.RUN, "steer angle", "rad", held=True),
+    Output(
+        "imu",
+        Of.UNIT,
+        "yaw, yaw rate and lateral acceleration, with noise where asked for; z shows gravity",
+        type_name="sensor_msgs/msg/Imu",
+        fields={
+            "orientation.z": "imu_z",
+            "orientation.w": "imu_w",
+            "angular_velocity.z": "imu_yaw_rate",
+            "linear_acceleration.y": "imu_lateral_acceleration",
+        },
+    ),
+    Output(
+        "odom",
+        Of.UNIT,
+        "pose of the centre of gravity in `odom`, velocity in the unit's own frame",
+        type_name="nav_msgs/msg/Odometry",
+        fields={
+            "pose.pose.position.x": "x",
+            "pose.pose.position.y": "y",
+            "pose.pose.orientation.z": "z",
+            "pose.pose.orientation.w": "w",
+            "twist.twist.linear.x": "forward",
+            "twist.twist.linear.y": "sideways",
+            "twist.twist.angular.z": "yaw_rate",
+        },
+    ),
+    Output(
+        "joint_states",
+        Of.RUN,
+        "steer angle and articulation angles, with their rates",
+        type_name="sensor_msgs/msg/JointState",
+        fields={
+            "position.0": "steering_angle",
+            "velocity.0": "steering_rate",
+            "position.{joint}": "articulation",
+            "velocity.{joint}": "articulation_rate",
+        },
+    ),
+    scalar("yaw", Of.UNIT, "yaw", "rad"),
+    scalar("yaw_rate", Of.UNIT, "yaw rate", "rad/s"),
+    scalar("lateral_acceleration", Of.UNIT, "lateral acceleration", "m/s^2"),
+    Output("articulation", Of.JOINT, "articulation", "rad"),
+)
+"""An output is added here; one that only some models have is one of those models' `quantity_names`, too."""
+
+OF_EVERY_MODEL = (
+    frozenset(Sample._fields)
+    | {"steering_rate", "z", "w", "forward", "sideways"}
+    | {
+        *("imu_z", "imu_w", "imu_yaw_rate", "imu_lateral_acceleration"),
+    }
+)
+"""Quantities that the encoder finds in any sample."""
+
+
+def available(quantity_names: Iterable[str]) -> list[Output]:
+    """Outputs of a motion that has these quantities besides those of every model."""
+    known = OF_EVERY_MODEL.union(quantity_names)
+    return [
+        output
+        for output in OUTPUTS
+        if output.value is not None or known.issuperset(output.fields.values() or [output.name])
+    ]
+
+
+def columns(outputs: Iterable[Output], unit_names: Sequence[str]) -> list[tuple[str, Output, int]]:
+    """Columns of outputs in the order of a CSV file: name, output, and index of the unit or joint."""
+    single = [output for output in outputs if output.unit]
+    by_unit = [
+        (output, index) for index in range(len(unit_names)) for output in single if output.of is Of.UNIT
+    ]
+    order = [
+        *((output, 0) for output in single if output.of is Of.RUN),
+        *by_unit,
+        *(
+            (output, index)
+            for output in single
+            if output.of is Of.JOINT
+            for index in range(len(unit_names) - 1)
+        ),
+    ]
+    return [(output.names(unit_names)[index], output, index) for output, index in order]
+
+
+def quantity(source: Sample | Response, name: str) -> FloatArray:
+    """A quantity of a sample or a response, wherever it has it."""
+    values: FloatArray = source.extra[name] if name in source.extra else getattr(source, name)
+    return values

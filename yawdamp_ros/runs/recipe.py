@@ -1,0 +1,199 @@
+"""A run on disk that explains itself, alike for the node and for offline runs."""
+
+import json
+import math
+import platform
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from rclpy.serialization import serialize_message
+
+from yawdamp_ros.runs.encoder import TWISTS, Encoded, message_class
+from yawdamp_ros.runs.outputs import FLOAT64
+from yawdamp_ros.runs.run_writer import Channel, RunWriter, SerialisedMessage
+from yawdamp_ros.runs.templates import ENCAPSULATION
+from yawdamp_ros.simulation import SimParameters
+from yawdamp_ros.stepping import AppliedInput, Command, Motion, TimeGrid
+from yawdamp_ros.stepping.build import build_of_numerics
+from yawdamp_ros.vehicle import VehicleSource
+from yawdamp_ros.version import VERSION
+
+VEHICLE_FILE = "vehicle.yaml"
+"""Name of the attachment that holds the vehicle file."""
+METADATA_NAME = "yawdamp_ros"
+"""Name of the metadata record that explains a run."""
+COMMAND = "steering"
+"""Topic of the steering commands as received; that of the road wheels is `applied_topic`."""
+
+
+def applied_topic(input_name: str) -> str:
+    """Relative topic of an input as applied."""
+    return "steering_applied" if input_name == "steering" else input_name
+
+
+class Recipe:
+    """What every recording of a run holds besides its messages.
+
+    Parameters
+    ----------
+    motion : Motion
+    grid : TimeGrid
+    settings : SimParameters
+        At the start.
+    vehicle : VehicleSource
+    start_time : int
+        Stamp of step 0 in ns.
+    types : mapping of str to str
+        Message type of every output by relative topic.
+    resolve : callable, optional
+        From a relative topic to its fully qualified name.
+    """
+
+    def __init__(  # noqa: PLR0913 - each is one part of what explains a run
+        self,
+        motion: Motion,
+        grid: TimeGrid,
+        settings: SimParameters,
+        vehicle: VehicleSource,
+        *,
+        start_time: int,
+        types: Mapping[str, str],
+        resolve: Callable[[str], str] = "/{}".format,
+    ) -> None:
+        self._motion, self._grid = motion, grid
+        self._vehicle, self._start_time = vehicle, start_time
+        self._outputs = {name: Channel(resolve(name), kind) for name, kind in types.items()}
+        self._inputs = {
+            name: Channel(resolve(applied_topic(name)), input_type(name)) for name in motion.input_names
+        }
+        self._commands = (
+            {COMMAND: Channel(resolve(COMMAND), settings.steering_type)}
+            if settings.manoeuvre == "none"
+            else {}
+        )
+
+    def open(self, directory: Path, settings: SimParameters) -> RunWriter:
+        """Start a run in a directory, from this instant of the motion on, under the settings of now.
+
+        Raises
+        ------
+        LogError
+            If the directory cannot be written.
+        """
+        channels = self._commands | {applied_topic(name): self._inputs[name] for name in self._inputs}
+        metadata = {METADATA_NAME: self._metadata(settings)}
+        return RunWriter(directory, channels | self._outputs, {VEHICLE_FILE: self._vehicle.text}, metadata)
+
+    def _metadata(self, settings: SimParameters) -> dict[str, str]:
+        motion = self._motion
+        # First, for it starts a block: what is recorded is what follows it.
+        initial = dict(motion.snapshot())
+        linear = motion.linearise()
+        return {
+            "vehicle": motion.vehicle.name,
+            "vehicle_overrides": json.dumps(self._vehicle.overrides),
+            "model": settings.model,
+            "speed": repr(motion.speed),
+            "step_ns": str(self._grid.step_ns),
+            "steps_per_sample": str(self._grid.steps_per_sample),
+            "start_time_ns": str(self._start_time),
+            "input_topics": json.dumps({name: channel.topic for name, channel in self._inputs.items()}),
+            "output_topics": json.dumps({name: channel.topic for name, channel in self._outputs.items()}),
+            "initial": json.dumps(initial),
+            "state_names": json.dumps(motion.state_names),
+            "state_matrix": json.dumps(linear.state_matrix.tolist()),
+            "input_matrix": json.dumps(linear.input_matrix.tolist()),
+            "parameters": json.dumps(
+                {name: None if _is_nan(value) else value for name, value in asdict(settings).items()}
+            ),
+            "twist": TWISTS[0],
+            "version": VERSION,
+            "python": platform.python_version(),
+            "build": build_of_numerics(),
+        }
+
+
+class RunFile:
+    """Writes encoded samples to a run directory.
+
+    Parameters
+    ----------
+    writer : RunWriter
+    """
+
+    def __init__(self, writer: RunWriter) -> None:
+        self._writer = writer
+
+    def write(self, encoded: Encoded) -> None:
+        """Append the messages of a sample."""
+        self._writer.write(recorded_messages(encoded))
+
+    def close(self) -> None:
+        """Finish the run."""
+        self._writer.close()
+
+
+def recorded_messages(encoded: Encoded) -> list[SerialisedMessage]:
+    """Messages of a sample with what led to it: commands, inputs and outputs in the order of time."""
+    found: list[SerialisedMessage] = []
+    before = _before(encoded)
+    pending = next(before, None)
+    for stamp, messages in zip(encoded.stamps, encoded.messages, strict=True):
+        while pending is not None and pending[1] <= stamp:
+            found.append(pending)
+            pending = next(before, None)
+        found += ((name, stamp, data) for name, data in zip(encoded.names, messages, strict=True))
+    return found
+
+
+def _before(encoded: Encoded) -> Iterator[SerialisedMessage]:
+    """Commands and inputs of a sample, in the order of time."""
+    sample = encoded.sample
+    happened: list[Command | AppliedInput] = [*sample.commands, *sample.inputs]
+    if sample.commands:
+        happened.sort(key=lambda each: each.step)
+    for each in happened:
+        stamp = encoded.stamp(each.step)
+        if isinstance(each, Command):
+            message = each.message or message_class(FLOAT64)(data=each.angle)
+            yield COMMAND, stamp, _without_tail(message, serialize_message(message))
+        else:
+            yield applied_topic(each.name), stamp, serialised_input(each)
+
+
+def _without_tail(message: Any, data: bytes) -> bytes:  # noqa: ANN401 - a generated message
+    """CDR without the bytes that rclpy leaves behind an empty array of doubles at the end.
+
+    Some readers reject them. Of the messages that can hold steering only joint states end so.
+    """
+    if len(getattr(message, "effort", [0.0])):
+        return data
+    texts = [message.header.frame_id, *message.name]
+    end = 8  # the stamp
+    for index, text in enumerate(texts):
+        end += -end % 4 + 4 + len(text.encode()) + 1
+        if not index:
+            end += -end % 4 + 4  # how many names follow
+    for values in (message.position, message.velocity, message.effort):
+        end += -end % 4 + 4
+        if len(values):
+            end += -end % 8 + 8 * len(values)
+    return data[: ENCAPSULATION + end]
+
+
+def input_type(name: str) -> str:
+    """Message type in which a run holds an input."""
+    return "std_msgs/msg/Empty" if name == "reset" else FLOAT64
+
+
+def serialised_input(applied: AppliedInput) -> bytes:
+    """Message of an applied input in CDR."""
+    kind = message_class(input_type(applied.name))
+    data: bytes = serialize_message(kind() if applied.name == "reset" else kind(data=applied.value))
+    return data
+
+
+def _is_nan(value: object) -> bool:
+    return isinstance(value, float) and math.isnan(value)

@@ -1,0 +1,89 @@
+"""Where a motion has lost its meaning."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.simulation.settings import SimParameters
+from yawdamp_ros.stepping import Sample
+
+
+class Limits(NamedTuple):
+    """Largest magnitudes that a run goes on with.
+
+    Attributes
+    ----------
+    lateral_acceleration : float
+        Of any unit, m/s^2.
+    articulation : float
+        Of any joint, rad.
+    """
+
+    lateral_acceleration: float
+    articulation: float
+
+    @classmethod
+    def of(cls, settings: SimParameters) -> "Limits":
+        """Limits that settings ask for."""
+        return cls(settings.max_lateral_acceleration, settings.max_articulation)
+
+
+class Stop(NamedTuple):
+    """Why a run was stopped before its end.
+
+    Attributes
+    ----------
+    step : int
+        Of the first instant that is not part of it.
+    key : str
+        Quantity that passed its limit, or name of the event.
+    where : str
+        Unit, joint or wheel.
+    reason : str
+        In words.
+    """
+
+    step: int
+    key: str
+    where: str
+    reason: str
+
+
+def limit_violation(sample: Sample, unit_names: Sequence[str], limits: Limits) -> tuple[int, Stop] | None:
+    """First instant of a sample at which it exceeds a limit, and how; None if it never does.
+
+    Parameters
+    ----------
+    sample : Sample
+        Of one or more instants.
+    unit_names : sequence of str
+    limits : Limits
+    """
+    accelerations, articulations = np.abs(sample.lateral_acceleration), np.abs(sample.articulation)
+    # Said this way round, no number is too much, too.
+    if (
+        accelerations.max() <= limits.lateral_acceleration
+        and articulations.max(initial=0.0) <= limits.articulation
+    ):
+        return None
+    steps = np.atleast_1d(sample.step)
+    table = np.hstack([_of_instants(accelerations, steps), _of_instants(articulations, steps)])
+    most = [limits.lateral_acceleration] * len(unit_names) + [limits.articulation] * (len(unit_names) - 1)
+    instant, column = (int(index) for index in np.argwhere(~(table <= most))[0])
+    if column < len(unit_names):
+        value = _of_instants(sample.lateral_acceleration, steps)[instant, column]
+        key, where = "lateral_acceleration", unit_names[column]
+        what = f"lateral acceleration of {where} {value:.4g} m/s^2, past {limits.lateral_acceleration:g}"
+    else:
+        joint = column - len(unit_names)
+        value = _of_instants(sample.articulation, steps)[instant, joint]
+        key, where = "articulation", f"articulation_{joint + 1}"
+        what = f"{where} {value:.4g} rad, past {limits.articulation:g}"
+    return instant, Stop(int(steps[instant]), key, where, f"{what}, where the model means nothing")
+
+
+def _of_instants(values: FloatArray, steps: npt.NDArray[np.int64]) -> FloatArray:
+    return np.reshape(values, (len(steps), -1))

@@ -1,0 +1,52 @@
+"""The models that a run can follow, by name."""
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from types import MappingProxyType
+
+from yawdamp_ros.dynamics import MODELS as LINEAR_MODELS
+from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.simulation.errors import SimulationError
+from yawdamp_ros.stepping import Motion, Stepper
+from yawdamp_ros.vehicle import Vehicle
+
+Factory = Callable[[Vehicle, float | None, float], Motion]
+"""From a vehicle, its speed in m/s (None: its own) and the step size in s to a motion at step 0."""
+
+
+def _linear(name: str, vehicle: Vehicle, speed: float | None, step_size: float) -> Motion:
+    return Stepper(linear_model(vehicle, speed, name), step_size)
+
+
+MODELS: Mapping[str, Factory] = MappingProxyType({name: partial(_linear, name) for name in LINEAR_MODELS})
+"""A model is added here, and nowhere else; what it needs is best imported in its factory."""
+
+
+def make_motion(vehicle: Vehicle, model: str, speed: float | None, step_size: float) -> Motion:
+    """Motion of a vehicle by the model of a name, at rest at the origin.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    model : str
+        One of `MODELS`.
+    speed : float or None
+        Longitudinal speed in m/s; None: the vehicle's own.
+    step_size : float
+        In s.
+
+    Returns
+    -------
+    Motion
+
+    Raises
+    ------
+    SimulationError
+        If there is no such model.
+    YawdampError
+        If the model cannot be of this vehicle at that speed.
+    """
+    if model not in MODELS:
+        message = f"model: {model!r}: expected one of {', '.join(MODELS)}"
+        raise SimulationError(message)
+    return MODELS[model](vehicle, speed, step_size)

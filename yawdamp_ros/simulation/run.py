@@ -1,0 +1,132 @@
+"""A run: commands in, samples out, by whatever drives it."""
+
+from collections import deque
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from yawdamp_ros.simulation.limits import Limits, Stop, limit_violation
+from yawdamp_ros.simulation.sink import Sink
+from yawdamp_ros.stepping import AppliedInput, Command, Motion, Sample, TimeGrid
+
+SAMPLES_AT_ONCE = 1000
+"""Instants that are computed before they are handed on, where nothing waits for each."""
+
+
+class Source(Protocol):
+    """Where the inputs of a run come from: `Commands`, or what another run recorded."""
+
+    def inputs(self, steps: range) -> Sequence[AppliedInput]:
+        """Inputs other than steering that act from one of these steps on, in order, each told once."""
+
+    def steering(self, steps: range) -> Sequence[float]:
+        """Road-wheel steer angle in rad from each of these steps on, each asked for once."""
+
+    def received(self) -> tuple[Command, ...]:
+        """Commands taken since the last time they were asked for."""
+
+
+class Run:
+    """Steps a motion as its source says, and hands every sample to its sinks until a limit is passed.
+
+    The same for the node, for `simulate` and for `resimulate`.
+
+    Parameters
+    ----------
+    motion : Motion
+    grid : TimeGrid
+    source : Source
+    sinks : sequence of Sink
+        Told of every sample in this order.
+    limits : Limits, optional
+        May be exchanged while running.
+
+    Attributes
+    ----------
+    samples : int
+        Handed on so far.
+    stopped : Stop or None
+        Why it was stopped; nothing is handed on any more.
+    """
+
+    def __init__(
+        self,
+        motion: Motion,
+        grid: TimeGrid,
+        source: Source,
+        sinks: Sequence[Sink],
+        limits: Limits | None = None,
+    ) -> None:
+        self.motion = motion
+        self.grid = grid
+        self.limits = limits
+        self.samples = 0
+        self.stopped: Stop | None = None
+        self._source = source
+        self._sinks = tuple(sinks)
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s: of now, or of the instant at which the run was stopped."""
+        return self.grid.seconds(self.motion.step if self.stopped is None else self.stopped.step)
+
+    def start(self) -> None:
+        """Hand on the sample of this instant, with its inputs."""
+        here = range(self.motion.step, self.motion.step + 1)
+        for applied in self._source.inputs(here):
+            self.motion.apply(applied)
+        self._steer(self._source.steering(here)[0])
+        self._hand_on(self.motion.sample())
+
+    def advance(self, samples: int = 1) -> None:
+        """Take sample periods, and hand on their samples."""
+        period, first = self.grid.steps_per_sample, self.motion.step + 1
+        steps = range(first, first + samples * period)
+        others = deque(self._source.inputs(steps))
+        angles = self._source.steering(steps)
+        if not others:
+            self._hand_on(self.motion.run(angles, period if samples > 1 else None))
+            return
+        for begin in range(0, len(steps), period):
+            self._hand_on(self._period(angles[begin : begin + period], others))
+
+    def close(self) -> None:
+        """Let every sink finish."""
+        for sink in self._sinks:
+            sink.close()
+
+    def _period(self, angles: Sequence[float], others: deque[AppliedInput]) -> Sample:
+        """Take a period with inputs other than steering in it."""
+        motion, first = self.motion, self.motion.step + 1
+        while others and others[0].step < first + len(angles):
+            applied = others.popleft()
+            while motion.step < applied.step:
+                motion.advance()
+                self._steer(angles[motion.step - first])
+            motion.apply(applied)
+        left = angles[motion.step + 1 - first :]
+        return motion.run(left) if len(left) else motion.sample()
+
+    def _steer(self, angle: float) -> None:
+        self.motion.apply(AppliedInput(self.motion.step, "steering", angle))
+
+    def _hand_on(self, sample: Sample) -> None:
+        if self.stopped is not None:
+            return
+        if received := self._source.received():
+            sample = sample._replace(commands=received)
+        for event in sample.events:
+            if event.final:
+                self.stopped = Stop(event.step, event.name, event.where, f"{event.name} of {event.where}")
+                break
+        if self.limits is not None and (
+            found := limit_violation(sample, self.motion.vehicle.unit_names, self.limits)
+        ):
+            instant, self.stopped = found
+            if not instant:
+                return
+            sample = sample.before(instant)
+        self.samples += np.size(sample.step)
+        for sink in self._sinks:
+            sink.write(sample)

@@ -1,0 +1,87 @@
+"""What the rest of the house knows of a model in time."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.stepping.sample import AppliedInput, Sample
+from yawdamp_ros.vehicle import Vehicle
+
+
+class Motion(Protocol):
+    """A vehicle that moves in fixed steps.
+
+    The bits of a run depend on the inputs and their steps alone, not on how many steps are taken at once.
+
+    Attributes
+    ----------
+    vehicle : Vehicle
+    step : int
+        Steps since the start.
+    input_names : sequence of str
+        What `apply` takes; ``steering`` is among them.
+    state_names : sequence of str
+    quantity_names : sequence of str
+        What a sample has in `Sample.extra`.
+    """
+
+    @property
+    def vehicle(self) -> Vehicle: ...  # noqa: D102 - the class describes its attributes
+
+    @property
+    def step(self) -> int: ...  # noqa: D102
+
+    @property
+    def input_names(self) -> Sequence[str]: ...  # noqa: D102
+
+    @property
+    def state_names(self) -> Sequence[str]: ...  # noqa: D102
+
+    @property
+    def quantity_names(self) -> Sequence[str]: ...  # noqa: D102
+
+    @property
+    def speed(self) -> float:
+        """Longitudinal velocity of the lead unit now, m/s."""
+
+    @property
+    def steering_angle(self) -> float:
+        """Road-wheel steer angle in force from this instant on, rad."""
+
+    def apply(self, applied: AppliedInput) -> None:
+        """Let an input act from this instant on."""
+
+    def advance(self, steps: int = 1) -> None:
+        """Take steps with the steering held."""
+
+    def run(self, angles: Sequence[float] | FloatArray, steps_per_sample: int | None = None) -> Sample:
+        """Take a step for every steer angle, and sample.
+
+        Parameters
+        ----------
+        angles : array_like, shape (k,)
+            Road-wheel steer angles in rad, each in force from the instant after its step on.
+        steps_per_sample : int, optional
+            A divisor of k: sample every so many steps. The last instant alone unless given.
+
+        Returns
+        -------
+        Sample
+            Of the last instant, or of k / steps_per_sample instants. A motion beyond all numbers is nan.
+        """
+
+    def sample(self) -> Sample:
+        """Sample of this instant; its lists of what happened start anew."""
+
+    def snapshot(self) -> Mapping[str, Any]:
+        """State sufficient for `restore`, of what JSON holds: the same bits follow here as there.
+
+        Its ``sampled`` says whether this instant's sample was taken.
+        """
+
+    def restore(self, snapshot: Mapping[str, Any]) -> None:
+        """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
+
+    def linearise(self) -> LinearModel:
+        """Linear model about straight running at the speed of now."""
