@@ -14,7 +14,7 @@ FILE_HEAD = """\
 # Parameters of the simulator node, with their defaults:
 #   ros2 run yawdamp_ros sim --ros-args --params-file sim.yaml
 # A number must be written as declared: 100.0, not 100. .nan is a number that was not given.
-yawdamp_sim:
+/**:
   ros__parameters:
 """
 
@@ -56,7 +56,11 @@ def parameter_file() -> str:
             groups.add(group)
             lines.append(f"    {group}:\n")
         indent = "      " if group else "    "
-        value = f"{indent}{key}: {_yaml(getattr(SimParameters(), declared.name))}"
+        default = getattr(SimParameters(), declared.name)
+        # What follows from other parameters unless given would be given if it were written.
+        value = (
+            f"{indent}{key}: {_yaml(default)}" if not declared.metadata["otherwise"] else f"{indent}# {key}:"
+        )
         lines.append(f"{value:<42}# {declared.metadata['description']}\n")
     return FILE_HEAD + "".join(lines)
 
@@ -72,7 +76,7 @@ def main() -> int:
 def _rows() -> str:
     rows = []
     for name, declared in PARAMETERS.items():
-        default = _yaml(getattr(SimParameters(), declared.name))
+        default = declared.metadata["otherwise"] or _yaml(getattr(SimParameters(), declared.name))
         described = declared.metadata["description"]
         if declared.metadata["choices"]:
             described += f" ({', '.join(declared.metadata['choices'])})"

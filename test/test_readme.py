@@ -36,8 +36,12 @@ def flat(parameters: dict[str, Any], prefix: str = "") -> dict[str, Any]:
 def test_the_parameter_file_is_that_of_the_declarations() -> None:
     text = (share_directory() / "config" / "sim.yaml").read_text(encoding="utf-8")
     assert text == parameter_table.parameter_file()
-    given = flat(YAML(typ="safe", pure=True).load(text)["yawdamp_sim"]["ros__parameters"])
-    defaults = {name: getattr(SimParameters(), declared.name) for name, declared in PARAMETERS.items()}
+    given = flat(YAML(typ="safe", pure=True).load(text)["/**"]["ros__parameters"])
+    defaults = {
+        name: getattr(SimParameters(), declared.name)
+        for name, declared in PARAMETERS.items()
+        if not declared.metadata["otherwise"]
+    }
     assert list(given) == list(defaults)
     for name, default in defaults.items():
         both_nan = isinstance(default, float) and math.isnan(default) and math.isnan(given[name])

@@ -26,6 +26,7 @@ IN_ORDER = Readings(
     recorder_detail="runs/a",
     messages_lost=0,
     least_damping_ratio=0.4,
+    beyond="",
     speed=22.5,
 )
 
@@ -124,3 +125,9 @@ def test_a_recorder_that_failed_is_an_error_for_good_and_one_that_drops_when_it_
 
 def test_an_unstable_model_warns() -> None:
     assert told(looks(with_changes(least_damping_ratio=-0.01))["model"]) == (b"\1", "unstable")
+
+
+def test_a_run_beyond_the_linear_range_warns_with_its_sentence() -> None:
+    model = looks(with_changes(beyond="lateral acceleration of truck 4.1 m/s^2, past 4"))["model"]
+    assert told(model) == (b"\1", "beyond_linear_range")
+    assert model.message == "lateral acceleration of truck 4.1 m/s^2, past 4"

@@ -5,8 +5,8 @@ from yawdamp_ros.cli.console import print_table
 from yawdamp_ros.dynamics import LinearModel
 
 
-def print_peaks(model: LinearModel, peaks: Peaks) -> None:
-    """Print the largest magnitudes of each unit."""
+def print_peaks(model: LinearModel, peaks: Peaks, note: str) -> None:
+    """Print the largest magnitudes of each unit, and a note where the linear range was left."""
     units = zip(
         model.vehicle.unit_names,
         peaks.yaw,
@@ -22,3 +22,5 @@ def print_peaks(model: LinearModel, peaks: Peaks) -> None:
             for name, yaw, yaw_rate, acceleration in units
         ],
     )
+    if note:
+        print(f"note: {note}")

@@ -9,6 +9,7 @@ from yawdamp_ros.nodes.stop_request import StopRequest
 
 if TYPE_CHECKING:
     import argparse
+    from pathlib import Path
 
     from rclpy.node import Node
 
@@ -42,6 +43,7 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
         raise UsageError(message)
     require_ros()
     from yawdamp_ros.nodes.graph import join, ros_graph  # noqa: PLC0415
+    from yawdamp_ros.nodes.parameter_files import parameter_files  # noqa: PLC0415
 
     with ros_graph(ros_arguments):
         node = join("yawdamp_sim", _overrides(options))
@@ -50,21 +52,27 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
 
         simulator = Simulator(node)
         try:
-            served, dropped = _run(node, simulator, stop)
+            served, dropped = _run(node, simulator, stop, parameter_files(ros_arguments))
         finally:
             simulator.close()
         _report(simulator, dropped)
     return 0 if served and simulator.flawless else 1
 
 
-def _run(node: "Node", simulator: "Simulator", stop: StopRequest) -> tuple[bool, int]:
+def _run(
+    node: "Node", simulator: "Simulator", stop: StopRequest, files: "Sequence[Path]"
+) -> tuple[bool, int]:
     """Serve the node; return whether its ROS context outlived it, and the steps that it dropped."""
     if stop.requested:
         return True, 0
     from yawdamp_ros.nodes.graph import spin  # noqa: PLC0415
+    from yawdamp_ros.nodes.parameter_files import misfit  # noqa: PLC0415
     from yawdamp_ros.nodes.server import Server  # noqa: PLC0415
 
     simulator.publish_first()
+    for path in files:
+        if problem := misfit(path, node.get_fully_qualified_name()):
+            node.get_logger().warning(problem)
     with _progress(simulator) as progress:
         gc.freeze()  # what there is by now is never garbage
         gc.enable()
@@ -89,7 +97,7 @@ def _progress(simulator: "Simulator") -> Iterator[Callable[[], None]]:
 def _report(simulator: "Simulator", dropped: int) -> None:
     from yawdamp_ros.cli.peaks_table import print_peaks  # noqa: PLC0415
 
-    print_peaks(simulator.model, simulator.peaks)
+    print_peaks(simulator.model, simulator.peaks, simulator.range.sentence)
     if dropped:
         lost = simulator.grid.seconds(dropped)
         print(f"late: {dropped} steps given up, {lost:g} s behind the steady clock")

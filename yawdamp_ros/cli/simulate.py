@@ -35,13 +35,14 @@ from yawdamp_ros.simulation import (
     SAMPLES_AT_ONCE,
     Commands,
     Limits,
+    LinearRange,
     Run,
     SimParameters,
     Sink,
     make_motion,
 )
 from yawdamp_ros.stepping import Motion, Sample, TimeGrid, Verdict
-from yawdamp_ros.vehicle import VehicleSource, vehicle_text
+from yawdamp_ros.vehicle import Vehicle, VehicleSource, vehicle_text
 
 DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
@@ -51,7 +52,7 @@ def main(arguments: Sequence[str]) -> int:
     """Simulate a manoeuvre or a log, write the run, print its peaks; 1 if a limit stopped it."""
     options = _parser().parse_args(arguments)
     vehicle = chosen_vehicle(options)
-    log, settings = _settings(options)
+    log, settings = _settings(options, vehicle)
     grid = TimeGrid.of(settings.step_size, _sample_period(options))
     motion = make_motion(vehicle, settings.model, None, grid.step_size)
     commands = Commands(settings, grid, motion, None if log is None else (log.times, log.angles))
@@ -59,6 +60,7 @@ def main(arguments: Sequence[str]) -> int:
         print(f"warning: {growing}", file=sys.stderr)
     output = Path(options.output or default_run_directory(vehicle.name))
     peaks = Peaks(len(vehicle.units))
+    linear_range = LinearRange(vehicle.unit_names, Limits.warning(settings))
     with StopRequest() as stop:
         if _to_csv(options):
             sink: Sink = ResponseCsv(output, motion, grid)
@@ -67,10 +69,10 @@ def main(arguments: Sequence[str]) -> int:
             output = make_run_directory(output, numbered=not options.output)
             sink = _run_sink(output, motion, grid, settings, options)
         with progress_bar() as bar:
-            sinks = [sink, peaks, _ProgressSink(bar, grid, settings.duration)]
+            sinks = [sink, peaks, linear_range, _ProgressSink(bar, grid, settings.duration)]
             with closing(Run(motion, grid, commands, sinks, Limits.of(settings))) as run:
                 _carry_out(run, grid.samples_in(settings.duration), stop)
-    print_peaks(motion.linearise(), peaks)
+    print_peaks(motion.linearise(), peaks, linear_range.sentence)
     if clamped := commands.steering_input.counts[Verdict.CLAMPED]:
         print(f"{clamped} commands clamped to {settings.max_steering_angle:g} rad")
     if run.stopped is not None:
@@ -105,7 +107,7 @@ class _ProgressSink:
         """The bar closes itself."""
 
 
-def _settings(options: argparse.Namespace) -> tuple[SteeringLog | None, SimParameters]:
+def _settings(options: argparse.Namespace, vehicle: Vehicle) -> tuple[SteeringLog | None, SimParameters]:
     """The log, if there is one, and what the run is asked for."""
     log = _log(options)
     duration = options.duration
@@ -120,7 +122,7 @@ def _settings(options: argparse.Namespace) -> tuple[SteeringLog | None, SimParam
         vehicle=chosen_name(options),
         vehicle_overrides=options.set or [""],
         model=options.model or DEFAULT_MODEL,
-        speed=options.speed or 0.0,
+        speed=vehicle.speed,
         step_size=options.step_size,
         publish_rate=1.0 / period if period else 0.0,
         real_time_factor=0.0,
@@ -171,7 +173,7 @@ def _run_sink(
 
     encoder = Encoder(motion, settings, grid, start_time=0)
     source = VehicleSource(vehicle_text(chosen_name(options)), tuple(options.set))
-    recipe = Recipe(motion, grid, settings, source, start_time=0, types=encoder.types)
+    recipe = Recipe(motion, grid, settings, source, stamps=encoder.stamps, types=encoder.types)
     encoder.sinks.append(RunFile(recipe.open(directory, settings)))
     return encoder
 

@@ -52,6 +52,8 @@ class Readings(NamedTuple):
     messages_lost : int
         By the recorder.
     least_damping_ratio : float
+    beyond : str
+        Where the run left the linear range since the last look; empty if it did not.
     speed : float
         In m/s.
     """
@@ -72,6 +74,7 @@ class Readings(NamedTuple):
     recorder_detail: str
     messages_lost: int
     least_damping_ratio: float
+    beyond: str
     speed: float
 
 
@@ -170,12 +173,16 @@ class Diagnosis:
         return self._status("recorder", level, message, state=state, messages_lost=str(now.messages_lost))
 
     def _model(self, now: Readings) -> DiagnosticStatus:
-        stable = now.least_damping_ratio > 0.0
+        state, message = ModelState.STABLE, "stable"
+        if now.beyond:
+            state, message = ModelState.BEYOND_LINEAR_RANGE, now.beyond
+        elif now.least_damping_ratio <= 0.0:
+            state, message = ModelState.UNSTABLE, "unstable: a mode grows"
         return self._status(
             "model",
-            OK if stable else WARN,
-            "stable" if stable else "unstable: a mode grows",
-            state=ModelState.STABLE if stable else ModelState.UNSTABLE,
+            OK if state is ModelState.STABLE else WARN,
+            message,
+            state=state,
             least_damping_ratio=f"{now.least_damping_ratio:.4f}",
             speed=f"{now.speed:.6g} m/s",
         )

@@ -5,8 +5,6 @@ import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import rclpy
@@ -19,8 +17,8 @@ from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.signals import SignalHandlerOptions
 
-from yawdamp_ros.files import read_text
 from yawdamp_ros.nodes.errors import NodeError
+from yawdamp_ros.nodes.parameter_files import check_parameter_file, parameter_files
 from yawdamp_ros.nodes.stop_request import StopRequest
 
 SPIN_PERIOD = 0.05
@@ -28,12 +26,6 @@ SPIN_PERIOD = 0.05
 
 FAREWELL = 0.25
 """Seconds. What is published arrives within some ms, but Fast DDS has it acknowledged only every 3 s."""
-
-LARGEST_PARAMETER_FILE = 1 << 17
-"""Characters."""
-
-MOST_BRACKETS = 1000
-"""Opened in a parameter file."""
 
 
 @contextmanager
@@ -47,9 +39,8 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
     NodeError
         If rclpy refuses the arguments, a file among them or a parameter, or cannot start.
     """
-    for option, value in pairwise(ros_arguments):
-        if option == "--params-file":
-            _check_parameter_file(Path(value))
+    for path in parameter_files(ros_arguments):
+        check_parameter_file(path)
     set_logger_level("rcl", LoggingSeverity.FATAL)  # what it refuses is raised, and said once
     try:
         rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
@@ -149,21 +140,6 @@ def spinning(node: Node) -> Iterator[None]:
         executor.wake()
         thread.join()
         executor.shutdown()
-
-
-def _check_parameter_file(path: Path) -> None:
-    """Refuse what rcl's parser would not come back from: its time goes by the square of nearly everything."""
-    try:
-        text = read_text(path, LARGEST_PARAMETER_FILE)
-    except OSError as error:
-        message = f"--params-file: {path}: cannot be read: {error.strerror}"
-        raise NodeError(message) from error
-    except UnicodeDecodeError as error:
-        message = f"--params-file: {path}: not UTF-8 text; expected a YAML file"
-        raise NodeError(message) from error
-    if text.count("[") + text.count("{") > MOST_BRACKETS:
-        message = f"--params-file: {path}: more than {MOST_BRACKETS} lists and mappings in brackets"
-        raise NodeError(message)
 
 
 def _is_of_rclpy(error: RuntimeError) -> bool:

@@ -47,13 +47,25 @@ class Topics:
             for topic, kind in encoder.types.items()
         ]
         self.names = [publisher.topic_name for publisher in self._publishers]
-        self._clock = node.create_publisher(Clock, "/clock", QUEUE_DEPTH) if settings.publish_clock else None
+        self._clock: Any = None
+        if settings.clock:
+            self.publish_clock()
         self._markers = (
             node.create_publisher(MarkerArray, "markers", QUEUE_DEPTH) if settings.publish_markers else None
         )
         self._tf, self._tf_class, self.without_tf = None, None, "publish_tf is false"
         if settings.publish_tf:
             self._tf, self._tf_class, self.without_tf = _tf_publisher(node)
+
+    @property
+    def clock(self) -> bool:
+        """Whether simulated time goes out on /clock."""
+        return self._clock is not None
+
+    def publish_clock(self) -> None:
+        """Let simulated time go out on /clock from now on, for good: nodes that follow it need it."""
+        if self._clock is None:
+            self._clock = self._node.create_publisher(Clock, "/clock", QUEUE_DEPTH)
 
     def write(self, encoded: Encoded) -> None:
         """Publish a sample of one instant."""

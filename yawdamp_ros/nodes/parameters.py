@@ -44,16 +44,33 @@ def declare_parameters(node: Node) -> SimParameters:
     given = _given(node)
     for name, value in given.items():
         _check(name, value)
-    values = {}
-    for name, declared in PARAMETERS.items():
-        value = given.get(name, getattr(SimParameters(), declared.name))
-        descriptor = parameter_descriptor(declared)
-        values[declared.name] = node.declare_parameter(name, value, descriptor).value
-    settings = SimParameters(**values)
+    if namespace := node.get_namespace().strip("/"):
+        given.setdefault("frame_prefix", f"{namespace}/")
+    settings = SimParameters(**{PARAMETERS[name].name: value for name, value in given.items()})
     if problem := settings.problem():
         message = f"parameter {problem}"
         raise NodeError(message)
+    for name, declared in PARAMETERS.items():
+        value = getattr(settings, declared.name)
+        if value is not None:
+            node.declare_parameter(name, value, parameter_descriptor(declared))
     return settings
+
+
+def declare_derived(node: Node, speed: float, *, clock: bool) -> None:
+    """Declare the parameters that were not given and follow from others, so that they tell what is in force.
+
+    Parameters
+    ----------
+    node : Node
+    speed : float
+        In m/s.
+    clock : bool
+        Whether /clock is published.
+    """
+    for name, value in (("speed", speed), ("publish_clock", clock)):
+        if not node.has_parameter(name):
+            node.declare_parameter(name, value, parameter_descriptor(PARAMETERS[name]))
 
 
 def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimParameters:
@@ -77,6 +94,9 @@ def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimPara
     wanted = {parameter.name: parameter.value for parameter in parameters if parameter.name in PARAMETERS}
     for name, value in wanted.items():
         _check(name, value)
+    if settings.speed_source == "topic" and "speed" in wanted:
+        message = "parameter speed: follows the topic, as speed_source says; publish the speed there"
+        raise NodeError(message)
     directory = wanted.get("record_directory", settings.record_directory)
     if directory != settings.record_directory and not _is_confined(directory):
         message = f"parameter record_directory: {directory!r}: expected one below the working directory"
@@ -108,7 +128,7 @@ def parameter_descriptor(declared: Field[Any]) -> ParameterDescriptor:
     )
     if described["limits"]:
         low, high = described["limits"]
-        if isinstance(low, int):
+        if described["kind"] is int:
             descriptor.integer_range = [IntegerRange(from_value=low, to_value=high, step=1)]
         else:
             descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
@@ -145,18 +165,21 @@ def _given(node: Node) -> dict[str, Any]:
 def _check(name: str, value: Any) -> None:  # noqa: ANN401 - of any type that a parameter has
     declared = PARAMETERS[name]
     described: Mapping[str, Any] = declared.metadata
-    default = getattr(SimParameters(), declared.name)
+    kind: type = described["kind"]
     problem = ""
-    mixed = isinstance(default, list) and not all(isinstance(item, str) for item in value or [])
-    if type(value) is not type(default) or mixed:
-        wanted = _TYPE_NAMES[type(default)]
-        problem = f"expected {wanted}"
-        if isinstance(default, float) and type(value) is int:
+    mixed = kind is list and not all(isinstance(item, str) for item in value or [])
+    if type(value) is not kind or mixed:
+        problem = f"expected {_TYPE_NAMES[kind]}"
+        if kind is float and type(value) is int:
             problem += f", write {value}.0"
     elif described["choices"] and value not in described["choices"]:
         problem = f"expected one of {', '.join(described['choices'])}"
     elif described["limits"] and not described["limits"][0] <= value <= described["limits"][1]:
         problem = "expected a number from {:g} to {:g}".format(*described["limits"])
+        if described["constraint"]:
+            problem += f"; {described['constraint']}"
+        if described["otherwise"]:
+            problem += f"; leave it out for {described['otherwise']}"
     if problem:
         message = f"parameter {name}: {value!r}: {problem}"
         raise NodeError(message)

@@ -20,6 +20,7 @@ from yawdamp_ros.nodes.states import RecorderState, Reply, answer
 from yawdamp_ros.nodes.subscriptions import STEADY
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.stepping import Pacer
+from yawdamp_ros.stepping.pacer import CATCH_UP_NS
 from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
 
 WARNING_PERIOD = 5.0
@@ -49,6 +50,8 @@ class Server:
         self.steps_dropped = 0
         self._worst_lateness = 0.0
         self._loss_said = 0
+        self._silence_said = False
+        self._tells_speed = False
         self._diagnosis = Diagnosis(node.get_fully_qualified_name(), simulator.motion.vehicle.name)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", QUEUE_DEPTH)
         self._neighbours = Neighbours(node, ("steering", "speed"), simulator.topics.names)
@@ -63,11 +66,15 @@ class Server:
         self._looked_at = time.monotonic_ns()
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
         rate = simulator.settings.real_time_factor
-        self._pacer = Pacer(simulator.grid.period_ns, rate, time.monotonic_ns())
+        # Half of what is made up for: a start that took longer shows as a jump of the stamps.
+        since = max(simulator.started_at, time.monotonic_ns() - CATCH_UP_NS // 2)
+        self._pacer = Pacer(simulator.grid.period_ns, rate, since)
         self._timer = node.create_timer(self._timer_period(), self._on_timer, clock=steady)
 
     def _on_timer(self) -> None:
-        due = self._pacer.due(time.monotonic_ns())
+        now = time.monotonic_ns()
+        clock = ros_time(now)
+        due = self._pacer.due(now)
         self._worst_lateness = max(self._worst_lateness, due.lateness / SECOND)
         if due.given_up:
             self.steps_dropped += due.given_up * self._simulator.grid.steps_per_sample
@@ -76,17 +83,21 @@ class Server:
                 throttle_duration_sec=WARNING_PERIOD,
                 throttle_time_source_type=STEADY,
             )
-        for _ in range(due.periods):
+        # The first of them was due so long ago; the others lie on the grid behind it.
+        first_due = None if clock is None else clock - round(due.lateness)
+        for index in range(due.periods):
             if self._simulator.finished:
                 self._timer.cancel()
                 break
-            self._simulator.advance()
+            self._simulator.advance(None if index else first_due)
 
     def _timer_period(self) -> float:
         rate = self._simulator.settings.real_time_factor
         return self._simulator.grid.period_ns / SECOND / rate if rate else 0.0
 
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
+        if self._tells_speed:
+            return SetParametersResult(successful=True)
         try:
             changed(self._simulator.settings, parameters)
         except NodeError as error:
@@ -94,6 +105,8 @@ class Server:
         return SetParametersResult(successful=True)
 
     def _use_parameters(self, parameters: list[Parameter]) -> None:
+        if self._tells_speed:
+            return
         before = self._simulator.settings
         self._simulator.change(changed(before, parameters))
         rate = self._simulator.settings.real_time_factor
@@ -122,7 +135,7 @@ class Server:
         run = self._simulator.run
         response.success = self._pacer.paused and not self._simulator.finished
         if response.success:
-            self._simulator.advance()
+            self._simulator.advance(time.time_ns())
             response.success = run.stopped is None
             response.message = (
                 answer(Reply.STOPPED, run.stopped.reason)
@@ -155,6 +168,8 @@ class Server:
         elapsed, self._looked_at = (now - self._looked_at) / SECOND, now
         self._diagnostics.publish(self._diagnosis.of(self._readings(), elapsed, time.time_ns()))
         self._worst_lateness = 0.0
+        self._tell_silence()
+        self._tell_speed()
         recorder = self._simulator.recorder
         if recorder.lost > self._loss_said:
             self._loss_said = recorder.lost
@@ -164,6 +179,29 @@ class Server:
                 throttle_duration_sec=WARNING_PERIOD,
                 throttle_time_source_type=STEADY,
             )
+
+    def _tell_silence(self) -> None:
+        """Say once that the controller went silent, whenever it does."""
+        simulator = self._simulator
+        silent = simulator.commands.steering_input.timed_out(simulator.motion.step)
+        if silent and not self._silence_said:
+            settings = simulator.settings
+            becomes = "returned to zero" if settings.on_steering_timeout == "zero" else "held"
+            self._node.get_logger().warning(
+                f"steering: no command for {settings.steering_timeout:g} s; the last one is {becomes}"
+            )
+        self._silence_said = silent
+
+    def _tell_speed(self) -> None:
+        """Let the parameter tell the speed in force."""
+        speed = self._simulator.motion.speed
+        if (
+            self._simulator.settings.speed_source == "topic"
+            and self._node.get_parameter("speed").value != speed
+        ):
+            self._tells_speed = True
+            self._node.set_parameters([Parameter("speed", value=speed)])
+            self._tells_speed = False
 
     def _readings(self) -> Readings:
         simulator = self._simulator
@@ -187,5 +225,12 @@ class Server:
             recorder_detail=recorder.detail,
             messages_lost=recorder.lost,
             least_damping_ratio=least_damping_ratio(motion.linearise()),
+            beyond="" if (beyond := simulator.range.look()) is None else beyond.reason,
             speed=motion.speed,
         )
+
+
+def ros_time(now: int) -> int | None:
+    """System time at a steady time of just now, in ns; None if the process was held up in between."""
+    clock = time.time_ns()
+    return clock if time.monotonic_ns() - now < SECOND // 1000 else None

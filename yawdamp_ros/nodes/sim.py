@@ -1,6 +1,7 @@
 """The simulator of a node: a run whose samples are published and recorded."""
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 from rclpy.node import Node
@@ -8,13 +9,13 @@ from rclpy.node import Node
 from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.nodes.outputs import Topics
-from yawdamp_ros.nodes.parameters import declare_parameters
+from yawdamp_ros.nodes.parameters import declare_derived, declare_parameters
 from yawdamp_ros.nodes.recorder import Recorder
 from yawdamp_ros.nodes.subscriptions import SteeringSubscription, subscribe_speed
 from yawdamp_ros.runs import default_run_directory, make_run_directory
 from yawdamp_ros.runs.encoder import Encoder
 from yawdamp_ros.runs.recipe import Recipe
-from yawdamp_ros.simulation import Commands, Limits, Run, SimParameters, Sink, make_motion
+from yawdamp_ros.simulation import Commands, Limits, LinearRange, Run, SimParameters, Sink, Stop, make_motion
 from yawdamp_ros.stepping import Sample, TimeGrid
 from yawdamp_ros.vehicle import VehicleSource, parse_vehicle, vehicle_text
 
@@ -41,7 +42,9 @@ class Simulator:
         source = VehicleSource(vehicle_text(settings.vehicle), changes)
         vehicle = parse_vehicle(source.text, settings.vehicle, changes)
         self.grid = TimeGrid.of(settings.step_size, 1.0 / settings.publish_rate)
-        self.motion = make_motion(vehicle, settings.model, settings.speed or None, self.grid.step_size)
+        self.motion = make_motion(vehicle, settings.model, settings.speed, self.grid.step_size)
+        self.settings = settings = replace(settings, speed=self.motion.speed)
+        declare_derived(node, self.motion.speed, clock=settings.clock)
         self.model = self.motion.linearise()
         self.commands = Commands(settings, self.grid, self.motion)
         self._subscription: SteeringSubscription | None = None
@@ -51,22 +54,24 @@ class Simulator:
             )
         if settings.speed_source == "topic":
             subscribe_speed(node, self.commands.speed_input)
-        self._start_time = time.time_ns()
-        encoder = Encoder(self.motion, settings, self.grid, self._start_time)
+        # Time stamps and the pace of the samples are counted from one instant.
+        self.started_at, start_time = time.monotonic_ns(), time.time_ns()
+        self._encoder = encoder = Encoder(self.motion, settings, self.grid, start_time)
         self.topics = Topics(node, vehicle, encoder, settings)
         recipe = Recipe(
             self.motion,
             self.grid,
             settings,
             source,
-            start_time=self._start_time,
+            stamps=encoder.stamps,
             types=encoder.types,
             resolve=node.resolve_topic_name,
         )
         self.recorder = Recorder(lambda directory: recipe.open(directory, self.settings))
         encoder.sinks += [self.topics, self.recorder]
         self.peaks = Peaks(len(vehicle.units))
-        sinks: list[Sink] = [encoder, self.peaks, _EventLog(node, self.grid)]
+        self.range = LinearRange(vehicle.unit_names, Limits.warning(settings), self._tell_range)
+        sinks: list[Sink] = [encoder, self.peaks, self.range, _EventLog(node, self.grid)]
         self.run = Run(self.motion, self.grid, self.commands, sinks, Limits.of(settings))
         if settings.record:
             self.start_recording(numbered=not settings.record_directory)
@@ -100,8 +105,16 @@ class Simulator:
         if self._node.get_parameter("use_sim_time").value:
             self._node.get_logger().warning("use_sim_time: not followed, for this node makes the time")
 
-    def advance(self) -> None:
-        """Take a sample period, with what has arrived by now, and publish its sample."""
+    def advance(self, clock: int | None) -> None:
+        """Take a sample period, with what has arrived by now, and publish its sample.
+
+        Parameters
+        ----------
+        clock : int or None
+            ROS time at which the sample is due in ns, which its stamp follows where there is no /clock.
+        """
+        if clock is not None and not self.topics.clock:
+            self._encoder.follow(clock)
         if self._subscription is not None:
             self._subscription.take()
         self.run.advance()
@@ -110,8 +123,11 @@ class Simulator:
     def change(self, settings: SimParameters) -> None:
         """Go by other settings from now on."""
         self.settings = settings
+        if settings.clock:
+            self.topics.publish_clock()
         self.commands.change(settings)
         self.run.limits = Limits.of(settings)
+        self.range.levels = Limits.warning(settings)
 
     def start_recording(self, *, numbered: bool) -> None:
         """Start a run on disk.
@@ -141,10 +157,14 @@ class Simulator:
         if self.run.stopped is not None:
             self._node.get_logger().error(f"stopped at {self.run.time:g} s: {self.run.stopped.reason}")
 
+    def _tell_range(self, beyond: Stop) -> None:
+        time_ = self.grid.seconds(beyond.step)
+        self._node.get_logger().warning(f"beyond the linear range from {time_:g} s: {beyond.reason}")
+
     def _now(self) -> int:
-        """Time that the stamps of commands are held against: what their senders' clock shows."""
-        if self.settings.publish_clock:
-            return self._start_time + self.motion.step * self.grid.step_ns
+        """Time on the clock that the senders of commands can see."""
+        if self.topics.clock:
+            return self._encoder.stamps.of(self.motion.step)
         return time.time_ns()
 
 

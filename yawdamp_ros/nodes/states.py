@@ -38,6 +38,7 @@ class ModelState(StrEnum):
 
     STABLE = "stable"
     UNSTABLE = "unstable"
+    BEYOND_LINEAR_RANGE = "beyond_linear_range"
 
 
 class Problem(StrEnum):

@@ -6,12 +6,15 @@ from typing import NamedTuple
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.dynamics.linear_range import LINEAR_ARTICULATION, LINEAR_LATERAL_ACCELERATION
 from yawdamp_ros.pictures.errors import PictureError
 from yawdamp_ros.pictures.figure import COLOURS
 from yawdamp_ros.runs import outputs
 from yawdamp_ros.runs.outputs import Of, Output, quantity
 from yawdamp_ros.stepping import Response
 
+LINEAR_UP_TO = {"lateral_acceleration": LINEAR_LATERAL_ACCELERATION, "articulation": LINEAR_ARTICULATION}
+"""Magnitude of a quantity past which a truck leaves the linear range."""
 MOST_RUNS = 6
 """More could not be told apart."""
 
@@ -45,6 +48,8 @@ class Panel(NamedTuple):
     curves : list of Curve
     held : bool
         Whether a value holds until the next.
+    linear_up_to : float or None
+        Magnitude past which a truck leaves the linear range; beyond, the panel is shaded.
     """
 
     x_label: str
@@ -52,6 +57,21 @@ class Panel(NamedTuple):
     title: str
     curves: list[Curve]
     held: bool = False
+    linear_up_to: float | None = None
+
+
+def bands(panel: Panel) -> list[tuple[float, float]]:
+    """Ranges of a panel's values that lie beyond the linear range."""
+    if panel.linear_up_to is None:
+        return []
+    values = np.concatenate([curve.y for curve in panel.curves])
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    found = []
+    if high > panel.linear_up_to:
+        found.append((panel.linear_up_to, high))
+    if low < -panel.linear_up_to:
+        found.append((low, -panel.linear_up_to))
+    return found
 
 
 def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
@@ -101,6 +121,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
             "",
             curves(output),
             output.held,
+            LINEAR_UP_TO.get(output.name),
         )
         for output in outputs.OUTPUTS
         if output.unit

@@ -6,9 +6,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from yawdamp_ros.pictures.figure import new_figure, style
-from yawdamp_ros.pictures.run_panels import Panel, run_panels
+from yawdamp_ros.pictures.run_panels import Panel, bands, run_panels
 from yawdamp_ros.stepping import Response
 
+SHADE = "#f3e3dc"
+"""Beyond the linear range."""
 DASHES = ((0.0, ()), (0.0, (5, 2)), (0.0, (1, 1.5)), (0.0, (6, 2, 1, 2)), (0.0, (10, 3)), (0.0, (1, 4)))
 """One a run, in points drawn and left blank."""
 
@@ -44,6 +46,8 @@ def runs_figure(runs: Sequence[tuple[str, Response]]) -> Figure:
                 linewidth=1.2,
                 drawstyle="steps-post" if panel.held else "default",
             )
+        for low, high in bands(panel):
+            axes.axhspan(low, high, color=SHADE, linewidth=0.0, zorder=0.0)
         style(axes, panel.x_label, panel.y_label, panel.title)
     _add_legend(figure, [name for name, _ in runs], panels)
     return figure

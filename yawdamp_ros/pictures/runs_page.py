@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from plotly.graph_objects import Figure, Scatter
 from plotly.subplots import make_subplots
 
-from yawdamp_ros.pictures.run_panels import run_panels
+from yawdamp_ros.pictures.run_panels import bands, run_panels
 from yawdamp_ros.stepping import Response
 
+SHADE = "#f3e3dc"
+BEYOND = "beyond the linear range"
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 """One a run."""
 MOST_SAMPLES = 20_000
@@ -81,6 +83,10 @@ def runs_page(runs: Sequence[tuple[str, Response]]) -> str:
                 col=1,
             )
             listed.add(name)
+        for low, high in bands(panel):
+            figure.add_hrect(
+                y0=low, y1=high, fillcolor=SHADE, layer="below", line_width=0, row=row, col=1, name=BEYOND
+            )
         # All that is over time is zoomed into together.
         zoomed = "x" if row > 1 and panel.x_label == panels[0].x_label else None
         figure.update_xaxes(title_text=panel.x_label, matches=zoomed, row=row, col=1)

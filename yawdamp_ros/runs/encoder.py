@@ -14,6 +14,7 @@ from yawdamp_ros.runs.templates import Blank, Templates
 from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.stepping import Motion, Sample, TimeGrid
 from yawdamp_ros.stepping.pose import half_turns
+from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.stepping.time_grid import SECOND
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
@@ -59,6 +60,20 @@ class Noise(NamedTuple):
         return (generator.standard_normal((units, 3)) * self[:3]).T
 
 
+class Jump(NamedTuple):
+    """A jump of the time stamps: of this step and all that follow.
+
+    Attributes
+    ----------
+    step : int
+    nanoseconds : int
+        Later by so much than the grid has it.
+    """
+
+    step: int
+    nanoseconds: int
+
+
 class Encoded(NamedTuple):
     """A sample and its messages.
 
@@ -74,6 +89,8 @@ class Encoded(NamedTuple):
         For each instant the message of every name, in CDR.
     stamp : callable
         Stamp in ns of any step.
+    jump : Jump or None
+        Of the stamps, since the sample before.
     """
 
     sample: Sample
@@ -81,6 +98,7 @@ class Encoded(NamedTuple):
     names: tuple[str, ...]
     messages: list[list[bytes]]
     stamp: Callable[[int], int]
+    jump: Jump | None = None
 
 
 class EncodedSink(Protocol):
@@ -106,28 +124,37 @@ class Encoder:
         Stamp of step 0 in ns.
     twist : str
         One of `TWISTS`; other than the first only of what was recorded so.
+    surge : bool
+        Whether the imu shows the acceleration of a speed that changes; not in early recordings.
 
     Attributes
     ----------
+    stamps : Stamps
+        Of the steps to come.
     types : dict of str to str
         Message type by relative topic, in the order of `Encoded.names`.
     sinks : list of EncodedSink
         Told of every sample in this order.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the last two are of early recordings alone
         self,
         motion: Motion,
         settings: SimParameters,
         grid: TimeGrid,
         start_time: int,
         twist: str = TWISTS[0],
+        *,
+        surge: bool = True,
     ) -> None:
         self.types: dict[str, str] = {}
         self.sinks: list[EncodedSink] = []
         self._grid = grid
         self._twist = twist
-        self._start_time = start_time
+        self.stamps = Stamps(grid.step_ns, start_time)
+        self._jump: Jump | None = None
+        self._surge = surge
+        self._last_speed = motion.step, motion.speed
         self._unit_names = motion.vehicle.unit_names
         self._noise = Noise.of(settings)
         self._frame_prefix = settings.frame_prefix
@@ -152,7 +179,19 @@ class Encoder:
 
     def go_on_from(self, step: int, steering_angle: float) -> None:
         """Take up a run after a sample: the steering rate is told from one to the next."""
-        self._last_steering = self._stamp(step), steering_angle
+        self._last_steering = step, steering_angle
+
+    def follow(self, clock: int) -> None:
+        """Let the next sample bear a clock's time in ns, if it would be more than a period from it."""
+        last = self._last_speed[0]
+        step = last + self._grid.steps_per_sample
+        if jump := self.stamps.follow(step, clock, self._grid.period_ns):
+            self._jump = Jump(last + 1, jump)
+
+    def jump(self, jump: Jump) -> None:
+        """Let the stamps jump as they did when the run was recorded."""
+        self.stamps.jump(jump.nanoseconds)
+        self._jump = jump
 
     def write(self, sample: Sample) -> None:
         """Serialise a sample and hand it on."""
@@ -167,17 +206,20 @@ class Encoder:
 
     def encoded(self, sample: Sample) -> Encoded:
         """A sample with its messages."""
-        stamps = [self._stamp(step) for step in np.atleast_1d(sample.step).tolist()]
-        known = self._made(sample, stamps)
+        steps = np.atleast_1d(sample.step).tolist()
+        stamps = [self.stamps.of(step) for step in steps]
+        known = self._made(sample, steps)
+        jump, self._jump = self._jump, None
         values = np.empty((len(stamps), self._width))
         for name, (start, width) in self._columns.items():
             found = known[name] if name in known else quantity(sample, name)
             values[:, start : start + width] = (
                 np.reshape(found, (len(stamps), width)) if np.ndim(found) else found
             )
-        return Encoded(sample, stamps, self._names, self._templates.filled(values, stamps), self._stamp)
+        messages = self._templates.filled(values, stamps)
+        return Encoded(sample, stamps, self._names, messages, self.stamps.of, jump)
 
-    def _made(self, sample: Sample, stamps: Sequence[int]) -> dict[str, FloatArray]:
+    def _made(self, sample: Sample, steps: Sequence[int]) -> dict[str, FloatArray]:
         """Quantities that are not in a sample as they are."""
         half = half_turns(sample.heading)
         velocity = sample.velocity if self._twist == TWISTS[0] else _small_angles(sample)
@@ -190,10 +232,11 @@ class Encoder:
             "imu_lateral_acceleration": sample.lateral_acceleration,
             "forward": velocity.real,
             "sideways": velocity.imag,
-            "steering_rate": self._steering_rates(sample.steering_angle, stamps),
+            "steering_rate": self._steering_rates(sample.steering_angle, steps),
+            "imu_longitudinal_acceleration": self._longitudinal(sample, steps),
         }
         if self._noise.present:
-            steps, shape = np.atleast_1d(sample.step).tolist(), sample.yaw.shape
+            shape = sample.yaw.shape
             noise = np.array([self._noise.of_step(step, shape[-1]) for step in steps])
             yaw, yaw_rate, lateral_acceleration = (np.reshape(noise[:, part], shape) for part in range(3))
             half = half * np.exp(0.5j * yaw)
@@ -207,18 +250,27 @@ class Encoder:
             known[name] = value(sample)
         return known
 
-    def _steering_rates(self, angles: FloatArray, stamps: Sequence[int]) -> FloatArray:
+    def _steering_rates(self, angles: FloatArray, steps: Sequence[int]) -> FloatArray:
         rates = []
-        for stamp, angle in zip(stamps, np.atleast_1d(angles).tolist(), strict=True):
-            rate = 0.0
-            if self._last_steering is not None and stamp > self._last_steering[0]:
-                rate = (angle - self._last_steering[1]) / ((stamp - self._last_steering[0]) / SECOND)
-            rates.append(rate)
-            self._last_steering = stamp, angle
+        for step, angle in zip(steps, np.atleast_1d(angles).tolist(), strict=True):
+            rates.append(self._rate(self._last_steering, step, angle))
+            self._last_steering = step, angle
         return np.array(rates)
 
-    def _stamp(self, step: int) -> int:
-        return self._start_time + step * self._grid.step_ns
+    def _longitudinal(self, sample: Sample, steps: Sequence[int]) -> FloatArray:
+        """Longitudinal acceleration of every unit, from sample to sample: they all follow one speed."""
+        speeds = np.reshape(sample.velocity.real, (len(steps), -1))[:, 0].tolist()
+        rates = []
+        for step, speed in zip(steps, speeds, strict=True):
+            rates.append(self._rate(self._last_speed, step, speed) if self._surge else 0.0)
+            self._last_speed = step, speed
+        return np.reshape(np.repeat(rates, sample.yaw.shape[-1]), sample.yaw.shape)
+
+    def _rate(self, last: tuple[int, float] | None, step: int, value: float) -> float:
+        """Rate of change of a value since an earlier step; 0 where there is none."""
+        if last is None or step <= last[0]:
+            return 0.0
+        return (value - last[1]) / ((step - last[0]) * self._grid.step_ns / SECOND)
 
     def _blank(self, output: Output, index: int, name: str) -> Blank:
         """The message of a unit, a joint or the run, and where in it which numbers go."""

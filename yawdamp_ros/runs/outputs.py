@@ -82,6 +82,7 @@ OUTPUTS: tuple[Output, ...] = (
             "orientation.z": "imu_z",
             "orientation.w": "imu_w",
             "angular_velocity.z": "imu_yaw_rate",
+            "linear_acceleration.x": "imu_longitudinal_acceleration",
             "linear_acceleration.y": "imu_lateral_acceleration",
         },
     ),
@@ -123,7 +124,7 @@ OF_EVERY_MODEL = (
     frozenset(Sample._fields)
     | {"steering_rate", "z", "w", "forward", "sideways"}
     | {
-        *("imu_z", "imu_w", "imu_yaw_rate", "imu_lateral_acceleration"),
+        *("imu_z", "imu_w", "imu_yaw_rate", "imu_lateral_acceleration", "imu_longitudinal_acceleration"),
     }
 )
 """Quantities that the encoder finds in any sample."""

@@ -11,12 +11,14 @@ from typing import Any
 from rclpy.serialization import serialize_message
 
 from yawdamp_ros.runs.encoder import TWISTS, Encoded, message_class
+from yawdamp_ros.runs.jumps import INT64, JUMP
 from yawdamp_ros.runs.outputs import FLOAT64
 from yawdamp_ros.runs.run_writer import Channel, RunWriter, SerialisedMessage
 from yawdamp_ros.runs.templates import ENCAPSULATION
 from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.stepping import AppliedInput, Command, Motion, TimeGrid
 from yawdamp_ros.stepping.build import build_of_numerics
+from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.vehicle import VehicleSource
 from yawdamp_ros.version import VERSION
 
@@ -43,8 +45,8 @@ class Recipe:
     settings : SimParameters
         At the start.
     vehicle : VehicleSource
-    start_time : int
-        Stamp of step 0 in ns.
+    stamps : Stamps
+        Of the steps to come.
     types : mapping of str to str
         Message type of every output by relative topic.
     resolve : callable, optional
@@ -58,16 +60,17 @@ class Recipe:
         settings: SimParameters,
         vehicle: VehicleSource,
         *,
-        start_time: int,
+        stamps: Stamps,
         types: Mapping[str, str],
         resolve: Callable[[str], str] = "/{}".format,
     ) -> None:
         self._motion, self._grid = motion, grid
-        self._vehicle, self._start_time = vehicle, start_time
+        self._vehicle, self._stamps = vehicle, stamps
         self._outputs = {name: Channel(resolve(name), kind) for name, kind in types.items()}
         self._inputs = {
             name: Channel(resolve(applied_topic(name)), input_type(name)) for name in motion.input_names
         }
+        self._jumps = Channel(resolve(JUMP), INT64)
         self._commands = (
             {COMMAND: Channel(resolve(COMMAND), settings.steering_type)}
             if settings.manoeuvre == "none"
@@ -82,7 +85,11 @@ class Recipe:
         LogError
             If the directory cannot be written.
         """
-        channels = self._commands | {applied_topic(name): self._inputs[name] for name in self._inputs}
+        channels = (
+            {JUMP: self._jumps}
+            | self._commands
+            | {applied_topic(name): self._inputs[name] for name in self._inputs}
+        )
         metadata = {METADATA_NAME: self._metadata(settings)}
         return RunWriter(directory, channels | self._outputs, {VEHICLE_FILE: self._vehicle.text}, metadata)
 
@@ -98,7 +105,7 @@ class Recipe:
             "speed": repr(motion.speed),
             "step_ns": str(self._grid.step_ns),
             "steps_per_sample": str(self._grid.steps_per_sample),
-            "start_time_ns": str(self._start_time),
+            "start_time_ns": str(self._stamps.of(0)),
             "input_topics": json.dumps({name: channel.topic for name, channel in self._inputs.items()}),
             "output_topics": json.dumps({name: channel.topic for name, channel in self._outputs.items()}),
             "initial": json.dumps(initial),
@@ -109,6 +116,8 @@ class Recipe:
                 {name: None if _is_nan(value) else value for name, value in asdict(settings).items()}
             ),
             "twist": TWISTS[0],
+            "surge": "true",
+            "jump_topic": self._jumps.topic,
             "version": VERSION,
             "python": platform.python_version(),
             "build": build_of_numerics(),
@@ -151,6 +160,9 @@ def recorded_messages(encoded: Encoded) -> list[SerialisedMessage]:
 def _before(encoded: Encoded) -> Iterator[SerialisedMessage]:
     """Commands and inputs of a sample, in the order of time."""
     sample = encoded.sample
+    if encoded.jump is not None:
+        jumped = message_class(INT64)(data=encoded.jump.nanoseconds)
+        yield JUMP, encoded.stamp(encoded.jump.step), serialize_message(jumped)
     happened: list[Command | AppliedInput] = [*sample.commands, *sample.inputs]
     if sample.commands:
         happened.sort(key=lambda each: each.step)

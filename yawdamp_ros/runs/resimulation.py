@@ -15,11 +15,13 @@ from rclpy.serialization import deserialize_message
 from yawdamp_ros.logs import LogError, McapLog, RecordedMessage
 from yawdamp_ros.runs.csv_resimulation import TOLERANCE
 from yawdamp_ros.runs.deviations import Deviations, Difference, quantity
-from yawdamp_ros.runs.encoder import TWISTS, Encoded, Encoder, message_class
+from yawdamp_ros.runs.encoder import TWISTS, Encoded, Encoder, Jump, message_class
+from yawdamp_ros.runs.jumps import jump_of
 from yawdamp_ros.runs.recipe import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.simulation import Run, SimParameters, make_motion
 from yawdamp_ros.stepping import AppliedInput, Command, TimeGrid
 from yawdamp_ros.stepping.build import build_of_numerics
+from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.vehicle import parse_vehicle
 
 SHORTEST_STEP = 1000
@@ -79,7 +81,9 @@ class Resimulation:
             if not (self._grid.step_ns >= SHORTEST_STEP and 1 <= self._grid.steps_per_sample <= MOST_STEPS):
                 message = f"steps of {self._grid.step_ns} ns, {self._grid.steps_per_sample} a sample"
                 raise ValueError(message)  # noqa: TRY301 - it is one of many ways not to be a run
-            self._start_time = int(known["start_time_ns"])
+            start_time = int(known["start_time_ns"])
+            self._stamps = Stamps(self._grid.step_ns, start_time)
+            self._jump_topic = known.get("jump_topic", "")
             self._inputs = {topic: name for name, topic in json.loads(known["input_topics"]).items()}
             self._topics: Mapping[str, str] = dict(json.loads(known["output_topics"]))
             if not self._topics:
@@ -93,8 +97,9 @@ class Resimulation:
                 motion,
                 self._settings(dict(json.loads(known["parameters"]))),
                 self._grid,
-                self._start_time,
+                start_time,
                 twist=known.get("twist", TWISTS[-1]),
+                surge=known.get("surge", "") == "true",
             )
             self._encoder.sinks.append(self)
             self._source = _Recorded(motion.steering_angle)
@@ -158,7 +163,9 @@ class Resimulation:
     def _compared(self) -> Iterator[float]:
         run, source = self._run, self._source
         due = run.motion.step + (self._grid.steps_per_sample if self._begun else 0)
-        for step, inputs, recorded in self._instants():
+        for step, jump, inputs, recorded in self._instants():
+            if jump:
+                self._encoder.jump(Jump(step, jump))
             if step > due or (recorded and step != due):
                 missing = self._grid.seconds(due)
                 self._part(Difference("every output", missing, "", "no sample", "a sample"))
@@ -194,21 +201,24 @@ class Resimulation:
             **{name: parameters[name] for name in shown if name in parameters},
         )
 
-    def _instants(self) -> Iterator[tuple[int, list[AppliedInput], dict[str, bytes]]]:
-        """Step, inputs, and outputs by topic, of every instant at which something was recorded."""
+    def _instants(self) -> Iterator[tuple[int, int, list[AppliedInput], dict[str, bytes]]]:
+        """Step, jump of stamps in ns, inputs, and outputs by topic, of every recorded instant."""
         topics = frozenset(self._topics.values())
         messages = chain([self._first] if self._first is not None else [], self._messages)
         for log_time, group in groupby(messages, key=lambda message: message.log_time):
-            step = (log_time - self._start_time) // self._grid.step_ns
+            instant = list(group)
+            jump = sum(jump_of(message.data) for message in instant if message.topic == self._jump_topic)
+            self._stamps.jump(jump)
+            step = self._stamps.at(log_time)
             inputs, outputs = [], {}
-            for message in group:
+            for message in instant:
                 if message.topic in self._inputs:
                     inputs.append(self._applied(message, step))
                 elif message.topic in topics:
                     outputs[message.topic] = message.data
             if self.warning:  # the last instant of a run that was cut off need not be whole
                 return
-            yield step, inputs, outputs
+            yield step, jump, inputs, outputs
 
     def _applied(self, message: RecordedMessage, step: int) -> AppliedInput:
         name: Any = self._inputs[message.topic]

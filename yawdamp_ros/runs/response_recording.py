@@ -12,6 +12,7 @@ import numpy as np
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs import LogError, McapLog, MessageDecoder
 from yawdamp_ros.runs import outputs
+from yawdamp_ros.runs.jumps import JUMP, jump_of
 from yawdamp_ros.runs.outputs import FLOAT64
 from yawdamp_ros.runs.response_reader import LARGEST_VALUE
 from yawdamp_ros.stepping import Response
@@ -44,15 +45,18 @@ def read_response_recording(path: Path) -> Response:
     scalars: dict[str, list[Any]] = defaultdict(list)
     units: dict[str, None] = {}
     stamps: list[int] = []
+    jumped = 0
     log = McapLog(path)
     for message in log.messages():
         prefix, _, name = message.topic.rpartition("/")
         unit = prefix.rpartition("/")[2]
         if name == "joint_states":
-            stamps.append(message.log_time)
+            stamps.append(message.log_time - jumped)
             messages[name].append(decode(message))
         elif message.type_name == FLOAT64 and name not in Response.__dataclass_fields__:
             scalars[message.topic].append(decode(message))
+        elif name == JUMP:
+            jumped += jump_of(message.data)
         elif name in OF_UNITS:
             units[unit] = None
             messages[f"{unit}/{name}"].append(decode(message))

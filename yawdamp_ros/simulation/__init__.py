@@ -7,6 +7,7 @@ from yawdamp_ros.simulation.commands import Commands
 from yawdamp_ros.simulation.errors import SimulationError
 from yawdamp_ros.simulation.library import simulate
 from yawdamp_ros.simulation.limits import Limits, Stop
+from yawdamp_ros.simulation.linear_range import LinearRange
 from yawdamp_ros.simulation.models import MODELS, make_motion
 from yawdamp_ros.simulation.run import SAMPLES_AT_ONCE, Run, Source
 from yawdamp_ros.simulation.settings import SimParameters
@@ -17,6 +18,7 @@ __all__ = [
     "SAMPLES_AT_ONCE",
     "Commands",
     "Limits",
+    "LinearRange",
     "Run",
     "SimParameters",
     "SimulationError",

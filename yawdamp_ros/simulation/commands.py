@@ -85,8 +85,8 @@ class Commands:
         """Go by other settings from now on, as far as they can change while running."""
         for name, value in _limits(settings, self._grid).items():
             setattr(self.steering_input, name, value)
-        if settings.speed != self._settings.speed:
-            self.speed_input.speed = settings.speed or self._motion.vehicle.speed
+        if settings.speed is not None and settings.speed != self._settings.speed:
+            self.speed_input.speed = settings.speed
         self._settings = settings
 
     def inputs(self, steps: range) -> Sequence[AppliedInput]:

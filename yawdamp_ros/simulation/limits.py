@@ -10,6 +10,8 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.stepping import Sample
 
+MEANINGLESS = "where the model means nothing"
+
 
 class Limits(NamedTuple):
     """Largest magnitudes that a run goes on with.
@@ -29,6 +31,11 @@ class Limits(NamedTuple):
     def of(cls, settings: SimParameters) -> "Limits":
         """Limits that settings ask for."""
         return cls(settings.max_lateral_acceleration, settings.max_articulation)
+
+    @classmethod
+    def warning(cls, settings: SimParameters) -> "Limits":
+        """Levels past which settings ask for a warning: there a truck leaves the linear range."""
+        return cls(settings.warn_lateral_acceleration, settings.warn_articulation)
 
 
 class Stop(NamedTuple):
@@ -52,7 +59,9 @@ class Stop(NamedTuple):
     reason: str
 
 
-def limit_violation(sample: Sample, unit_names: Sequence[str], limits: Limits) -> tuple[int, Stop] | None:
+def limit_violation(
+    sample: Sample, unit_names: Sequence[str], limits: Limits, consequence: str = MEANINGLESS
+) -> tuple[int, Stop] | None:
     """First instant of a sample at which it exceeds a limit, and how; None if it never does.
 
     Parameters
@@ -61,6 +70,8 @@ def limit_violation(sample: Sample, unit_names: Sequence[str], limits: Limits) -
         Of one or more instants.
     unit_names : sequence of str
     limits : Limits
+    consequence : str
+        End of the reason.
     """
     accelerations, articulations = np.abs(sample.lateral_acceleration), np.abs(sample.articulation)
     # Said this way round, no number is too much, too.
@@ -82,7 +93,7 @@ def limit_violation(sample: Sample, unit_names: Sequence[str], limits: Limits) -
         value = _of_instants(sample.articulation, steps)[instant, joint]
         key, where = "articulation", f"articulation_{joint + 1}"
         what = f"{where} {value:.4g} rad, past {limits.articulation:g}"
-    return instant, Stop(int(steps[instant]), key, where, f"{what}, where the model means nothing")
+    return instant, Stop(int(steps[instant]), key, where, f"{what}, {consequence}")
 
 
 def _of_instants(values: FloatArray, steps: npt.NDArray[np.int64]) -> FloatArray:

@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 from yawdamp_ros.dynamics import LOWEST_SPEED
+from yawdamp_ros.dynamics.linear_range import LINEAR_ARTICULATION, LINEAR_LATERAL_ACCELERATION
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.simulation.models import MODELS
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES
@@ -31,6 +32,8 @@ def _parameter(  # noqa: PLR0913 - each is one property of a parameter
     constraint: str = "",
     dynamic: bool = False,
     name: str = "",
+    kind: type | None = None,
+    otherwise: str = "",
 ) -> Any:  # noqa: ANN401 - dataclasses.field is typed by its default
     metadata = {
         "description": description,
@@ -39,6 +42,8 @@ def _parameter(  # noqa: PLR0913 - each is one property of a parameter
         "constraint": constraint,
         "dynamic": dynamic,
         "name": name,
+        "kind": type(default) if kind is None else kind,
+        "otherwise": otherwise,
     }
     if isinstance(default, list):
         return field(default_factory=default.copy, metadata=metadata)
@@ -65,11 +70,19 @@ class SimParameters:
         [""], "changes to the vehicle, each KEY=VALUE as in units.1.mass=4156"
     )
     model: str = _parameter("consistent", "model of the vehicle", choices=MODELS)
-    speed: float = _parameter(
-        0.0, "longitudinal speed in m/s; 0: the vehicle's own", limits=(0.0, 70.0), dynamic=True
+    speed: float | None = _parameter(
+        None,
+        "longitudinal speed in m/s",
+        limits=(LOWEST_SPEED, 70.0),
+        dynamic=True,
+        kind=float,
+        otherwise="the vehicle's own",
+        constraint="no model can stand still yet",
     )
     speed_source: str = _parameter(
-        "parameter", "whose speed counts: this parameter's or the topic's", choices=("parameter", "topic")
+        "parameter",
+        "whose speed counts: this parameter's, or the topic's from its first message on",
+        choices=("parameter", "topic"),
     )
     step_size: float = _parameter(0.001, "fixed integration step in s", limits=(1e-6, 1.0))
     publish_rate: float = _parameter(100.0, "samples a second of simulated time, in Hz", limits=(0.1, 1e4))
@@ -137,18 +150,39 @@ class SimParameters:
     max_articulation: float = _parameter(
         3.14, "in rad of any joint, past which the run is stopped, too", limits=(0.1, 1e3), dynamic=True
     )
+    warn_lateral_acceleration: float = _parameter(
+        LINEAR_LATERAL_ACCELERATION,
+        "in m/s^2 of any unit, past which a truck no longer does what the linear model does; the run goes on",
+        limits=(0.1, 1e6),
+        dynamic=True,
+    )
+    warn_articulation: float = _parameter(
+        LINEAR_ARTICULATION,
+        "in rad of any joint, past which as well",
+        limits=(0.01, 1e3),
+        dynamic=True,
+    )
     duration: float = _parameter(
         0.0, "simulated time in s after which the node ends; 0: none", limits=(0.0, 1e9)
     )
     publish_scalars: bool = _parameter(
         default=True, description="also publish yaw, yaw_rate and lateral_acceleration as Float64"
     )
-    publish_clock: bool = _parameter(default=False, description="publish simulated time on /clock")
+    publish_clock: bool | None = _parameter(
+        None,
+        "publish simulated time on /clock",
+        kind=bool,
+        otherwise="whether real_time_factor is not 1",
+    )
     publish_markers: bool = _parameter(default=False, description="publish the units as markers")
     publish_tf: bool = _parameter(
         default=True, description="publish the units on /tf, where tf2_msgs is installed"
     )
-    frame_prefix: str = _parameter("", "put before the names of all frames, such as left/")
+    frame_prefix: str = _parameter(
+        "",
+        "put before the names of all frames, such as left/, so that nodes side by side do not meet on /tf",
+        otherwise="the node's namespace",
+    )
     yaw_stddev: float = _parameter(0.0, "of the noise on imu's yaw, rad", limits=(0.0, 1.0))
     yaw_rate_stddev: float = _parameter(0.0, "of the noise on imu's yaw rate, rad/s", limits=(0.0, 1.0))
     lateral_acceleration_stddev: float = _parameter(
@@ -165,8 +199,6 @@ class SimParameters:
 
     def problem(self) -> str:
         """What is wrong with these values taken together; empty if nothing is."""
-        if 0.0 < self.speed < LOWEST_SPEED:
-            return f"speed: {self.speed}: expected 0, or {LOWEST_SPEED} to 70 m/s"
         if 0.0 < self.real_time_factor < SLOWEST:
             return f"real_time_factor: {self.real_time_factor}: expected 0, or {SLOWEST} to 100"
         if self.publish_rate * max(self.real_time_factor, 1.0) > FASTEST_RATE:
@@ -174,17 +206,15 @@ class SimParameters:
                 f"real_time_factor: {self.real_time_factor}: with publish_rate {self.publish_rate} "
                 f"expected at most {FASTEST_RATE:g} samples a second"
             )
-        if self.speed_source == "topic" and self.speed_given:
-            return f"speed: {self.speed}: speed_source is topic; expected 0, or speed_source parameter"
         if self.manoeuvre == "none" and self.manoeuvre_settings:
             given = next(iter(self.manoeuvre_settings))
             return f"manoeuvre.{given}: manoeuvre.name is none; expected a manoeuvre"
         return ""
 
     @property
-    def speed_given(self) -> bool:
-        """Whether a speed other than the vehicle's own was asked for."""
-        return self.speed > 0.0
+    def clock(self) -> bool:
+        """Whether simulated time goes out on /clock: unless said, where it is not real time."""
+        return self.real_time_factor != 1.0 if self.publish_clock is None else self.publish_clock
 
     @property
     def manoeuvre_settings(self) -> dict[str, float]:

@@ -1,0 +1,58 @@
+"""Where a run leaves the range in which a truck does what the linear model does."""
+
+from collections.abc import Callable, Sequence
+
+from yawdamp_ros.simulation.limits import Limits, Stop, limit_violation
+from yawdamp_ros.stepping import Sample
+
+BEYOND = "where tyres saturate and a truck may roll over: the model is linear, and shows too little"
+
+
+class LinearRange:
+    """A sink that tells where a run exceeds the levels of a warning; the run goes on.
+
+    Parameters
+    ----------
+    unit_names : sequence of str
+    levels : Limits
+        May be exchanged while running.
+    tell : callable, optional
+        Told of the first instant past a level.
+
+    Attributes
+    ----------
+    first : Stop or None
+        First instant past a level.
+    latest : Stop or None
+        Newest one since `look`.
+    """
+
+    def __init__(
+        self, unit_names: Sequence[str], levels: Limits, tell: Callable[[Stop], None] = lambda _: None
+    ) -> None:
+        self.levels = levels
+        self.first: Stop | None = None
+        self.latest: Stop | None = None
+        self._unit_names = tuple(unit_names)
+        self._tell = tell
+
+    @property
+    def sentence(self) -> str:
+        """What is to be said of the run; empty if it stayed within."""
+        return "" if self.first is None else self.first.reason
+
+    def look(self) -> Stop | None:
+        """Newest instant past a level since the last look, None if there is none."""
+        latest, self.latest = self.latest, None
+        return latest
+
+    def write(self, sample: Sample) -> None:
+        """Take a sample of one or more instants."""
+        if found := limit_violation(sample, self._unit_names, self.levels, BEYOND):
+            self.latest = found[1]
+            if self.first is None:
+                self.first = self.latest
+                self._tell(self.latest)
+
+    def close(self) -> None:
+        """Nothing is left to be told."""
