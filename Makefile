@@ -22,8 +22,8 @@ $(VENV)/ready: requirements.lock setup.py setup.cfg pyproject.toml $(wildcard re
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-sim: setup  ## drive the interlink through a lane change for 15 s and record it
-	@$(BIN)/python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --duration 15
+sim: setup  ## drive the interlink one lane (3.5 m) to the left in 15 s and record it
+	@$(BIN)/python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --amplitude 0.018 --duration 15
 
 test: setup  ## run every test
 	@$(BIN)/python -m pytest -n 2 --dist loadfile

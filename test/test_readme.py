@@ -49,7 +49,7 @@ def test_the_parameter_file_is_that_of_the_declarations() -> None:
 
 
 def test_the_peaks_shown_are_those_of_the_run() -> None:
-    response = simulate(load_vehicle("interlink"), LaneChange(), 15.0, sample_period=0.01)
+    response = simulate(load_vehicle("interlink"), LaneChange(amplitude=0.018), 15.0, sample_period=0.01)
     for index, unit in enumerate(response.unit_names):
         yaw, rate, acceleration = (
             np.abs(values[:, index]).max()
@@ -73,3 +73,11 @@ def test_the_library_example_runs() -> None:
     scope: dict[str, object] = {}
     exec(shown, scope)  # noqa: S102 - the README's own lines
     assert {"model", "response"} <= set(scope)
+
+
+def test_make_sim_drives_one_lane_within_the_linear_range() -> None:
+    makefile = (Path(__file__).parents[1] / "Makefile").read_text(encoding="utf-8")
+    (amplitude,) = re.findall(r"--manoeuvre lane_change --amplitude ([\d.]+) --duration 15", makefile)
+    response = simulate(load_vehicle("interlink"), LaneChange(amplitude=float(amplitude)), 15.0)
+    assert response.y[-1] == pytest.approx([3.5] * 3, abs=0.05)
+    assert np.abs(response.lateral_acceleration).max() < 2.0
