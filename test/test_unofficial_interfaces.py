@@ -11,6 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "yawdamp_ros"
+OF_NAMED_TUPLES = {"_asdict", "_fields", "_replace"}
 LISTED = {
     "nodes/subscriptions.py: handle.take_message",
     "logs/mcap_log.py: super()._read_record",
@@ -24,7 +25,11 @@ def private_uses(path: Path) -> Iterator[str]:
         if isinstance(node, ast.Attribute):
             owner = ast.unparse(node.value)
             private = node.attr.startswith("_") and not node.attr.startswith("__")
-            if private and owner not in {"self", "cls", "os"} and node.attr not in {"_asdict", "_replace"}:
+            if (
+                private
+                and owner not in {"self", "cls", "os"}
+                and node.attr not in {"_asdict", "_replace", "_fields"}
+            ):
                 yield f"{place}: {owner}.{node.attr}"
             elif owner.endswith(".handle"):
                 yield f"{place}: handle.{node.attr}"

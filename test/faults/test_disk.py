@@ -23,7 +23,7 @@ from yawdamp_ros.runs import RunWriter, make_run_directory
 
 pytestmark = pytest.mark.graph
 
-OUTPUTS = 16
+OUTPUTS = 17
 """Messages of a sample of the interlink."""
 
 

@@ -97,7 +97,8 @@ def test_an_hour_of_steering_writes_a_run_in_which_every_message_decodes(tmp_pat
             count += 1
         assert count == reader.message_count
     say(f"an hour in {took:.0f} s, {count} messages, every one decodes")
-    assert count == 360_001 * 17 + 1
+    # 16 outputs, the frames, the steering; then the speed and the fixed frames once.
+    assert count == 360_001 * 18 + 2
 
 
 def test_a_ten_minute_log_does_not_drift(graph: Graph, say: SAY) -> None:

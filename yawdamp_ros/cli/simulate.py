@@ -173,7 +173,9 @@ def _run_sink(
 
     encoder = Encoder(motion, settings, grid, start_time=0)
     source = VehicleSource(vehicle_text(chosen_name(options)), tuple(options.set))
-    recipe = Recipe(motion, grid, settings, source, stamps=encoder.stamps, types=encoder.types)
+    recipe = Recipe(
+        motion, grid, settings, source, stamps=encoder.stamps, types=encoder.types, frames=encoder.frames
+    )
     encoder.sinks.append(RunFile(recipe.open(directory, settings)))
     return encoder
 

@@ -4,12 +4,13 @@ from typing import Any
 
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
 from yawdamp_ros.nodes.graph import wait_for_subscribers
-from yawdamp_ros.nodes.scene import markers, transforms
+from yawdamp_ros.nodes.scene import markers
 from yawdamp_ros.runs.encoder import Encoded, Encoder, message_class
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.simulation import SimParameters
@@ -53,9 +54,10 @@ class Topics:
         self._markers = (
             node.create_publisher(MarkerArray, "markers", QUEUE_DEPTH) if settings.publish_markers else None
         )
-        self._tf, self._tf_class, self.without_tf = None, None, "publish_tf is false"
+        self._frames = encoder.frames
+        self._tf, self._tf_static, self.without_tf = None, None, "publish_tf is false"
         if settings.publish_tf:
-            self._tf, self._tf_class, self.without_tf = _tf_publisher(node)
+            self._tf, self._tf_static, self.without_tf = _tf_publishers(node)
 
     @property
     def clock(self) -> bool:
@@ -75,8 +77,11 @@ class Topics:
         for publisher, data in zip(self._publishers, messages, strict=True):
             publisher.publish(data)
         scene = self._vehicle, encoded.sample, stamp, self._frame_prefix
-        if self._tf is not None and self._tf_class is not None:
-            self._tf.publish(self._tf_class(transforms=transforms(*scene)))
+        if self._tf is not None:
+            self._tf.publish(encoded.frames[0])
+        if self._tf_static is not None and self._frames is not None:
+            self._tf_static.publish(self._frames.fixed(stamp))
+            self._tf_static = None  # once is for good: the publisher is the node's
         if self._markers is not None:
             self._markers.publish(markers(*scene))
 
@@ -86,9 +91,11 @@ class Topics:
             wait_for_subscribers(self._publishers)
 
 
-def _tf_publisher(node: Node) -> tuple[Any, Any, str]:
+def _tf_publishers(node: Node) -> tuple[Any, Any, str]:
     try:
         from tf2_msgs.msg import TFMessage  # noqa: PLC0415 - not on PyPI, so it need not be there
     except ImportError:
         return None, None, "tf2_msgs is not installed"
-    return node.create_publisher(TFMessage, "/tf", 100), TFMessage, ""
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    moving = node.create_publisher(TFMessage, "/tf", 100)
+    return moving, node.create_publisher(TFMessage, "/tf_static", latched), ""

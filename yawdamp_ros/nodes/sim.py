@@ -65,6 +65,7 @@ class Simulator:
             source,
             stamps=encoder.stamps,
             types=encoder.types,
+            frames=encoder.frames,
             resolve=node.resolve_topic_name,
         )
         self.recorder = Recorder(lambda directory: recipe.open(directory, self.settings))
@@ -101,7 +102,7 @@ class Simulator:
         if self.recorder.directory is not None:
             self._node.get_logger().info(f"recording to {self.recorder.directory}")
         if self.settings.publish_tf and self.topics.without_tf:
-            self._node.get_logger().info(f"no frames on /tf: {self.topics.without_tf}")
+            self._node.get_logger().info(f"no frames on /tf, only in recordings: {self.topics.without_tf}")
         if self._node.get_parameter("use_sim_time").value:
             self._node.get_logger().warning("use_sim_time: not followed, for this node makes the time")
 

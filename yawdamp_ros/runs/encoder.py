@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray
+from yawdamp_ros.runs.frames import Frames
 from yawdamp_ros.runs.outputs import FLOAT64, Output, available, quantity
 from yawdamp_ros.runs.templates import Blank, Templates
 from yawdamp_ros.simulation import SimParameters
@@ -91,6 +92,8 @@ class Encoded(NamedTuple):
         Stamp in ns of any step.
     jump : Jump or None
         Of the stamps, since the sample before.
+    frames : list of bytes
+        For each instant the message of `Frames.moving`; empty where there are no frames.
     """
 
     sample: Sample
@@ -99,6 +102,7 @@ class Encoded(NamedTuple):
     messages: list[list[bytes]]
     stamp: Callable[[int], int]
     jump: Jump | None = None
+    frames: Sequence[bytes] = ()
 
 
 class EncodedSink(Protocol):
@@ -131,6 +135,8 @@ class Encoder:
     ----------
     stamps : Stamps
         Of the steps to come.
+    frames : Frames or None
+        Of the units, where settings ask for them.
     types : dict of str to str
         Message type by relative topic, in the order of `Encoded.names`.
     sinks : list of EncodedSink
@@ -153,6 +159,10 @@ class Encoder:
         self._twist = twist
         self.stamps = Stamps(grid.step_ns, start_time)
         self._jump: Jump | None = None
+        self.frames: Frames | None = None
+        if settings.publish_tf:
+            hitches = settings.publish_tf_hitches
+            self.frames = Frames(motion.vehicle, settings.frame_prefix, hitches=hitches)
         self._surge = surge
         self._last_speed = motion.step, motion.speed
         self._unit_names = motion.vehicle.unit_names
@@ -217,7 +227,8 @@ class Encoder:
                 np.reshape(found, (len(stamps), width)) if np.ndim(found) else found
             )
         messages = self._templates.filled(values, stamps)
-        return Encoded(sample, stamps, self._names, messages, self.stamps.of, jump)
+        frames = () if self.frames is None else self.frames.moving(sample, stamps)
+        return Encoded(sample, stamps, self._names, messages, self.stamps.of, jump, frames)
 
     def _made(self, sample: Sample, steps: Sequence[int]) -> dict[str, FloatArray]:
         """Quantities that are not in a sample as they are."""

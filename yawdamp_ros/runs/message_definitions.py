@@ -22,6 +22,10 @@ _PRIMITIVES = frozenset(
 )
 
 
+_WRITTEN_HERE = {"tf2_msgs/msg/TFMessage": "geometry_msgs/TransformStamped[] transforms"}
+"""Definitions of packages that are not on PyPI, as the format prescribes them."""
+
+
 class MessageDefinition(NamedTuple):
     """Schema text of a message type and its hash.
 
@@ -56,8 +60,10 @@ def message_definition(type_name: str) -> MessageDefinition:
         If the package that defines it is not installed.
     """
     package, _, name = type_name.split("/")
-    main = _message_file(package, name)
-    sections = [main.read_text(encoding="utf-8").rstrip("\n")]
+    sections, type_hash = [_WRITTEN_HERE.get(type_name, "")], ""
+    if not sections[0] or find_spec(package) is not None:
+        main = _message_file(package, name)
+        sections, type_hash = [main.read_text(encoding="utf-8").rstrip("\n")], _type_hash(main, type_name)
     included: dict[str, None] = {f"{package}/{name}": None}
     pending = _dependencies(sections[0], package)
     while pending:
@@ -68,7 +74,7 @@ def message_definition(type_name: str) -> MessageDefinition:
         text = _message_file(*dependency.split("/")).read_text(encoding="utf-8").rstrip("\n")
         sections.append(f"{_SEPARATOR}\nMSG: {dependency}\n{text}")
         pending += _dependencies(text, dependency.split("/")[0])
-    return MessageDefinition("\n".join(sections) + "\n", _type_hash(main, type_name))
+    return MessageDefinition("\n".join(sections) + "\n", type_hash)
 
 
 def _dependencies(text: str, package: str) -> list[str]:

@@ -11,6 +11,7 @@ from typing import Any
 from rclpy.serialization import serialize_message
 
 from yawdamp_ros.runs.encoder import TWISTS, Encoded, message_class
+from yawdamp_ros.runs.frames import TF_TYPE, Frames
 from yawdamp_ros.runs.jumps import INT64, JUMP
 from yawdamp_ros.runs.outputs import FLOAT64
 from yawdamp_ros.runs.run_writer import Channel, RunWriter, SerialisedMessage
@@ -26,6 +27,8 @@ VEHICLE_FILE = "vehicle.yaml"
 """Name of the attachment that holds the vehicle file."""
 METADATA_NAME = "yawdamp_ros"
 """Name of the metadata record that explains a run."""
+FRAME_CHANNELS = {"tf": Channel("/tf", TF_TYPE), "tf_static": Channel("/tf_static", TF_TYPE, latched=True)}
+"""Frames are of the whole graph: these names are not resolved."""
 COMMAND = "steering"
 """Topic of the steering commands as received; that of the road wheels is `applied_topic`."""
 
@@ -49,6 +52,8 @@ class Recipe:
         Of the steps to come.
     types : mapping of str to str
         Message type of every output by relative topic.
+    frames : Frames, optional
+        Of the units, if they are to be recorded.
     resolve : callable, optional
         From a relative topic to its fully qualified name.
     """
@@ -62,6 +67,7 @@ class Recipe:
         *,
         stamps: Stamps,
         types: Mapping[str, str],
+        frames: Frames | None = None,
         resolve: Callable[[str], str] = "/{}".format,
     ) -> None:
         self._motion, self._grid = motion, grid
@@ -70,6 +76,7 @@ class Recipe:
         self._inputs = {
             name: Channel(resolve(applied_topic(name)), input_type(name)) for name in motion.input_names
         }
+        self._frames = frames
         self._jumps = Channel(resolve(JUMP), INT64)
         self._commands = (
             {COMMAND: Channel(resolve(COMMAND), settings.steering_type)}
@@ -91,7 +98,13 @@ class Recipe:
             | {applied_topic(name): self._inputs[name] for name in self._inputs}
         )
         metadata = {METADATA_NAME: self._metadata(settings)}
-        return RunWriter(directory, channels | self._outputs, {VEHICLE_FILE: self._vehicle.text}, metadata)
+        attachments = {VEHICLE_FILE: self._vehicle.text}
+        if self._frames is None:
+            return RunWriter(directory, channels | self._outputs, attachments, metadata)
+        writer = RunWriter(directory, channels | self._outputs | FRAME_CHANNELS, attachments, metadata)
+        stamp = self._stamps.of(self._motion.step)
+        writer.write([("tf_static", stamp, self._frames.fixed(stamp))])
+        return writer
 
     def _metadata(self, settings: SimParameters) -> dict[str, str]:
         motion = self._motion
@@ -149,11 +162,13 @@ def recorded_messages(encoded: Encoded) -> list[SerialisedMessage]:
     found: list[SerialisedMessage] = []
     before = _before(encoded)
     pending = next(before, None)
-    for stamp, messages in zip(encoded.stamps, encoded.messages, strict=True):
+    for index, (stamp, messages) in enumerate(zip(encoded.stamps, encoded.messages, strict=True)):
         while pending is not None and pending[1] <= stamp:
             found.append(pending)
             pending = next(before, None)
         found += ((name, stamp, data) for name, data in zip(encoded.names, messages, strict=True))
+        if encoded.frames:
+            found.append(("tf", stamp, encoded.frames[index]))
     return found
 
 

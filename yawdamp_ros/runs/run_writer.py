@@ -39,10 +39,18 @@ class Channel(NamedTuple):
         Fully qualified.
     type_name : str
         As in ``sensor_msgs/msg/Imu``.
+    latched : bool
+        Whether its last message is for subscribers that come later, too.
     """
 
     topic: str
     type_name: str
+    latched: bool = False
+
+    @property
+    def qos(self) -> dict[str, Any]:
+        """Profile under which it is offered."""
+        return {**_QOS, "durability": "transient_local"} if self.latched else _QOS
 
 
 SerialisedMessage = tuple[str, int, bytes]
@@ -160,8 +168,8 @@ class RunWriter:
     def _register(self) -> None:
         schemas: dict[str, int] = {}
         self._ids: dict[str, int] = {}
-        qos = _dump_yaml([_QOS])
-        for name, (topic, type_name) in self._channels.items():
+        for name, channel in self._channels.items():
+            topic, type_name = channel.topic, channel.type_name
             definition = self._definitions[name]
             if type_name not in schemas:
                 schemas[type_name] = self._writer.register_schema(
@@ -171,7 +179,10 @@ class RunWriter:
                 topic=topic,
                 message_encoding="cdr",
                 schema_id=schemas[type_name],
-                metadata={"offered_qos_profiles": qos, "topic_type_hash": definition.type_hash},
+                metadata={
+                    "offered_qos_profiles": _dump_yaml([channel.qos]),
+                    "topic_type_hash": definition.type_hash,
+                },
             )
 
     def _information(self) -> dict[str, Any]:
@@ -191,7 +202,7 @@ class RunWriter:
                         "name": channel.topic,
                         "type": channel.type_name,
                         "serialization_format": "cdr",
-                        "offered_qos_profiles": [_QOS],
+                        "offered_qos_profiles": [channel.qos],
                         "type_description_hash": self._definitions[name].type_hash,
                     },
                     "message_count": self._counts[name],

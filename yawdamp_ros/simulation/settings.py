@@ -176,7 +176,11 @@ class SimParameters:
     )
     publish_markers: bool = _parameter(default=False, description="publish the units as markers")
     publish_tf: bool = _parameter(
-        default=True, description="publish the units on /tf, where tf2_msgs is installed"
+        default=True,
+        description="record the frames of the units, and publish them where tf2_msgs is installed",
+    )
+    publish_tf_hitches: bool = _parameter(
+        default=True, description="also those behind the lead unit; false beside a robot_state_publisher"
     )
     frame_prefix: str = _parameter(
         "",
