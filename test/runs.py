@@ -9,6 +9,8 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 
 from yawdamp_ros import linear_model, load_vehicle
+from yawdamp_ros.logs import McapLog
+from yawdamp_ros.runs.jumps import jump_of
 from yawdamp_ros.stepping import Sample, Stepper
 
 UNITS = ("truck", "trailer_1", "trailer_2")
@@ -33,13 +35,27 @@ def run_directory(directory: Path) -> Path:
 
 
 def recorded(run: Path) -> dict[str, list[tuple[int, Any]]]:
-    """Messages of a run by topic, with their log times."""
+    """Messages of a run by topic, with their log times but for the jumps that are recorded."""
     messages: dict[str, list[tuple[int, Any]]] = {}
+    jumped = 0
     with AnyReader([run]) as reader:
         for connection, log_time, data in reader.messages():
             message = reader.deserialize(data, connection.msgtype)
-            messages.setdefault(connection.topic, []).append((log_time, message))
+            if connection.topic == "/time_jump":
+                jumped += message.data
+            messages.setdefault(connection.topic, []).append((log_time - jumped, message))
     return messages
+
+
+def simulated_times(run: Path, topic: str = "/truck/imu") -> list[int]:
+    """Log times of a topic but for the jumps that are recorded, in the order of the file."""
+    times, jumped = [], 0
+    for message in McapLog(run).messages():
+        if message.topic == "/time_jump":
+            jumped += jump_of(message.data)
+        elif message.topic == topic:
+            times.append(message.log_time - jumped)
+    return times
 
 
 def stepped_again(steering: list[tuple[int, Any]], samples: int) -> list[Sample]:

@@ -16,7 +16,7 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import SetBool
 
 from graph import Graph, outcome, stop, until, values
-from runs import PERIOD, recorded, run_directory
+from runs import PERIOD, recorded, run_directory, simulated_times
 from yawdamp_ros.cli import run
 from yawdamp_ros.logs import LogError, McapLog
 from yawdamp_ros.runs import RunWriter, make_run_directory
@@ -38,7 +38,7 @@ def more_samples(graph: Graph, count: int) -> None:
 
 def kept(path: Path) -> list[int]:
     """Times of the truck's samples that can be read, alike by this project and by MCAP's own reader."""
-    ours = [message.log_time for message in McapLog(path).messages() if message.topic == "/truck/imu"]
+    ours = simulated_times(path)
     theirs = 0
     (file,) = path.glob("*.mcap")
     with file.open("rb") as stream, suppress(EndOfFile, struct.error):  # it ends in the middle

@@ -9,8 +9,8 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from graph import SLEEPER, Graph, stamps, stop, until, values
-from runs import PERIOD, recorded, run_directory
+from graph import SLEEPER, Graph, stop, until, values
+from runs import PERIOD, recorded, run_directory, simulated_times
 from yawdamp_ros.cli import run
 
 pytestmark = pytest.mark.graph
@@ -78,7 +78,7 @@ def whole(graph: Graph, process: Any) -> None:  # noqa: ANN401
     assert status == 0
     assert "Traceback" not in errors
     path = run_directory(graph.directory)
-    found = stamps([message for _, message in recorded(path)["/truck/imu"]])
+    found = simulated_times(path)
     assert np.diff(found).tolist() == [PERIOD] * (len(found) - 1)
     assert run(["resimulate", str(path)]) == 0
 

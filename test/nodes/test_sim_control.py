@@ -11,7 +11,7 @@ from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
 from graph import Graph, outcome, stamps, stop, until
-from runs import PERIOD, UNITS, recorded, run_directory
+from runs import PERIOD, UNITS, recorded, run_directory, simulated_times
 from yawdamp_ros.cli import run
 from yawdamp_ros.vehicle import vehicle_text
 
@@ -41,7 +41,7 @@ def test_as_fast_as_it_goes_publishes_and_records_every_sample(graph: Graph) -> 
     parameters = ["--ros-args", "-p", "real_time_factor:=0.0"]
     status, _, errors = outcome(graph.command("sim", "--manoeuvre", "sine", "--duration", "20", *parameters))
     assert status == 0, errors
-    found = stamps([message for _, message in recorded(run_directory(graph.directory))["/truck/imu"]])
+    found = simulated_times(run_directory(graph.directory))
     assert np.diff(found).tolist() == [PERIOD] * 2000
     assert run(["resimulate", str(run_directory(graph.directory))]) == 0
 
@@ -60,7 +60,7 @@ def test_the_rate_can_change_while_running(graph: Graph) -> None:
     assert not refused.successful
     assert "expected 0, or 0.1 to 100" in refused.reason
     assert stop(process)[0] == 0
-    found = stamps([message for _, message in recorded(run_directory(graph.directory))["/truck/imu"]])
+    found = simulated_times(run_directory(graph.directory))
     assert np.diff(found).tolist() == [PERIOD] * (len(found) - 1)
 
 
