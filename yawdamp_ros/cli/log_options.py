@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.drives import Channel, Drive
+from yawdamp_ros.drives import Drive
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.drive_formats import format_of, load_drive
 
@@ -76,7 +76,7 @@ def chosen_drive(path: str, options: argparse.Namespace, duration: float | None)
 
 
 def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
-    """Steering of a drive of a path as it was commanded, cut as the options say.
+    """Steering and speed of a drive of a path as they were commanded, cut as the options say.
 
     Raises
     ------
@@ -85,9 +85,15 @@ def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -
     """
     steering_ratio(options)
     drive = _read(path, options, duration, measured=False)
-    steering: Channel = drive["steering"]
+    steering, speed = drive["steering"], drive.channels.get("speed")
     return SteeringLog(
-        drive.source, steering.times.tolist(), steering.values.tolist(), drive.start_time, drive.warning
+        drive.source,
+        steering.times.tolist(),
+        steering.values.tolist(),
+        drive.start_time,
+        drive.warning,
+        () if speed is None else speed.times.tolist(),
+        () if speed is None else speed.values.tolist(),
     )
 
 
@@ -109,3 +115,8 @@ def _read(path: str, options: argparse.Namespace, duration: float | None, *, mea
     if drive.warning:
         print(f"warning: {drive.warning}", file=sys.stderr)
     return drive.window(options.start_offset or 0.0, duration)
+
+
+def speed_line(log: SteeringLog) -> str:
+    """What a log's speed is."""
+    return f"{len(log.speeds)} speeds of {min(log.speeds):.2f} to {max(log.speeds):.2f} m/s"
