@@ -5,20 +5,25 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE ?= LOCALHOST
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+LOCK := requirements.lock
+NOBLE_EXTRAS := analysis cluster colcon pictures ros test
+# Ubuntu 24.04's Python where one runs (a shim of pyenv may not), else the Python there is.
+NOBLE_PYTHON = $(shell for python in python3.12 $(HOME)/.pyenv/versions/3.12*/bin/python3.12 $(PYTHON); do \
+  "$$python" -c "" 2>/dev/null && echo "$$python" && break; done)
 
-.PHONY: help setup sim test test-fast soak bench bench-memory lint docs reproduction parameters lock clean
+.PHONY: help setup sim test test-noble test-fast soak bench bench-memory lint docs reproduction parameters lock clean
 
 help:  ## say what the targets do
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
 setup: $(VENV)/ready  ## install the package and its tools, versions as locked, in .venv
 
-$(VENV)/ready: requirements.lock setup.py setup.cfg pyproject.toml $(wildcard resource/commands/*)
+$(VENV)/ready: $(LOCK) setup.py setup.cfg pyproject.toml $(wildcard resource/commands/*)
 	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' \
 	  || { echo "yawdamp_ros: $(PYTHON) is not Python 3.11 or 3.12; say make PYTHON=python3.11" >&2; exit 1; }
 	@$(PYTHON) -m venv $(VENV) || { echo "yawdamp_ros: install python3-venv first" >&2; exit 1; }
 	@echo "Installing into $(VENV) (once, about a minute) ..."
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r $(LOCK)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
@@ -27,6 +32,9 @@ sim: setup  ## drive the interlink one lane (3.5 m) to the left in 15 s and reco
 
 test: setup  ## run every test
 	@$(BIN)/python -m pytest -n 2 --dist loadfile
+
+test-noble:  ## run every test with Ubuntu 24.04's versions, in .venv-noble
+	@$(MAKE) --no-print-directory test PYTHON=$(NOBLE_PYTHON) VENV=.venv-noble LOCK=requirements-noble.lock
 
 test-fast: setup  ## run the tests that need no ROS graph
 	@$(BIN)/python -m pytest -m "not graph"
@@ -57,10 +65,13 @@ reproduction: setup  ## write docs/report_reproduction.md and the pictures of do
 parameters: setup  ## write the node's parameters into the README and config/sim.yaml
 	@$(BIN)/python docs/parameter_table.py
 
-lock: setup  ## renew requirements.lock
+lock: setup  ## renew requirements.lock and requirements-noble.lock
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check uv
 	@$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 --all-extras --no-header \
 	  --no-emit-index-url --no-annotate setup.py --output-file requirements.lock
+	@$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 $(NOBLE_EXTRAS:%=--extra %) \
+	  --constraint requirements-noble.in --no-header --no-emit-index-url --no-annotate setup.py \
+	  --output-file requirements-noble.lock
 
 clean:  ## remove what the targets made, but for recorded runs
-	@rm -rf $(VENV) build install log *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis docs/_build
+	@rm -rf $(VENV) .venv-noble build install log *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis docs/_build

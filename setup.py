@@ -5,9 +5,7 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 PACKAGE = "yawdamp_ros"
-ROOT = Path(__file__).parent
-STUBS = sorted(path for path in Path("resource/commands").iterdir())
-COMMANDS = [path.name for path in STUBS]
+ROOT = Path(__file__).resolve().parent  # colcon's --symlink-install runs a link to this file
 
 
 def data_directory(directory: str) -> list[tuple[str, list[str]]]:
@@ -34,33 +32,36 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
-        # What `ros2 run` executes after a pip install; colcon puts its own scripts in their place.
-        (f"lib/{PACKAGE}", [str(path) for path in STUBS]),
+        (f"lib/{PACKAGE}", sorted(map(str, Path("resource/commands").iterdir()))),  # for `ros2 run`
         *data_directory("config"),
         *data_directory("launch"),
     ],
     install_requires=[
         "setuptools",
-        "numpy>=1.26",
-        "scipy>=1.11",
-        "mcap>=1.6",  # the run files' own format library
-        "mcap-ros2-support>=0.5",  # decodes ROS messages from the schemas in a file, without ROS
-        "jsonschema>=4.10",  # vehicle files, by a schema that editors understand, too
-        "ruamel.yaml>=0.17",  # YAML 1.2 that refuses a key given twice
-        "rich>=13",  # progress bars and tables for terminals
-        "matplotlib>=3.6",  # the field's plotting library
-        "threadpoolctl>=3.1",  # tells which kernels the BLAS has chosen, which the last bits depend on
-        "plotly>=5.18",  # pages of curves to zoom into, which load nothing from elsewhere
+        "numpy>=1.26.4",
+        "scipy>=1.11.4",
+        "mcap>=1.6.0",  # the run files' own format library
+        "mcap-ros2-support>=0.6.0",  # decodes ROS messages from the schemas in a file, without ROS
+        "jsonschema>=4.10.3",  # vehicle files, by a schema that editors understand, too
+        "ruamel.yaml>=0.17.21",  # YAML 1.2 that refuses a key given twice
+        "rich>=13.7.1",  # progress bars and tables for terminals
+        "threadpoolctl>=3.1.0",  # tells which kernels the BLAS has chosen, which the last bits depend on
     ],
     extras_require={
-        "analysis": ["control>=0.10"],  # root locus, Bode and Nyquist by the field's own library
+        "fast": ["numba>=0.68.1"],  # compiles the nonlinear model, which runs without, a hundred times slower
+        "pictures": [
+            "matplotlib>=3.6.3",  # the field's plotting library
+            "plotly>=5.18.0",  # pages of curves to zoom into, which load nothing from elsewhere
+        ],
+        "analysis": ["control>=0.10.2"],  # root locus, Bode and Nyquist by the field's own library
         "bags": ["rosbags"],  # reads rosbag2 recordings with sqlite3 storage
-        "cluster": ["distributed>=2024.5"],  # sweeps on other machines
+        "cluster": ["distributed>=2026.8.0"],  # sweeps on other machines
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.
         "test": [
-            "pytest>=8,<9",
+            "pytest>=7.4.4,<9",
             "pytest-timeout",
+            "wheel",  # setuptools before 70.1 cannot install this package without
             "pytest-xdist",
             "hypothesis",
             "psutil",
@@ -75,7 +76,7 @@ setup(
         "colcon": ["colcon-core", "colcon-ros"],
     },
     entry_points={
-        "console_scripts": [f"{name} = {PACKAGE}.__main__:script" for name in COMMANDS],
+        "console_scripts": [f"yawdamp = {PACKAGE}.__main__:main"],
     },
     zip_safe=False,
 )

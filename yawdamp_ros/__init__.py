@@ -1,18 +1,35 @@
 """Lateral dynamics of heavy vehicle combinations, with and without ROS.
 
-The names below load on first use, so that a command that needs little starts fast.
+The names and rooms below load on first use, so that a command that needs little starts fast.
 """
 
 from typing import TYPE_CHECKING
 
 from yawdamp_ros.lazy import load_on_use
+from yawdamp_ros.version import VERSION
 
 if TYPE_CHECKING:
+    from yawdamp_ros import analysis, dynamics, logs, manoeuvres, pictures, simulation, stepping, vehicle
     from yawdamp_ros.dynamics import linear_model
     from yawdamp_ros.simulation import simulate
     from yawdamp_ros.vehicle import load_vehicle
 
-__all__ = ["linear_model", "load_vehicle", "simulate"]
+__version__ = VERSION
+
+__all__ = [
+    "__version__",
+    "analysis",
+    "dynamics",
+    "linear_model",
+    "load_vehicle",
+    "logs",
+    "manoeuvres",
+    "pictures",
+    "simulate",
+    "simulation",
+    "stepping",
+    "vehicle",
+]
 
 __getattr__ = load_on_use(
     __name__,
@@ -21,4 +38,9 @@ __getattr__ = load_on_use(
         "yawdamp_ros.simulation": ("simulate",),
         "yawdamp_ros.vehicle": ("load_vehicle",),
     },
+    ("analysis", "dynamics", "logs", "manoeuvres", "pictures", "simulation", "stepping", "vehicle"),
 )
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -4,8 +4,10 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 
 
-def load_on_use(package: str, modules: Mapping[str, Sequence[str]]) -> Callable[[str], object]:
-    """A package's ``__getattr__``, so that who needs one of its names does not wait for all.
+def load_on_use(
+    package: str, modules: Mapping[str, Sequence[str]], rooms: Sequence[str] = ()
+) -> Callable[[str], object]:
+    """Make a package's ``__getattr__``, so that an import loads only what is used.
 
     Parameters
     ----------
@@ -13,6 +15,8 @@ def load_on_use(package: str, modules: Mapping[str, Sequence[str]]) -> Callable[
         Its ``__name__``.
     modules : mapping of str to sequence of str
         Names by the module that holds them.
+    rooms : sequence of str
+        Public packages inside it, which load on first use, too.
 
     Returns
     -------
@@ -23,6 +27,8 @@ def load_on_use(package: str, modules: Mapping[str, Sequence[str]]) -> Callable[
     def get(name: str) -> object:
         if name in homes:
             return getattr(import_module(homes[name]), name)
+        if name in rooms:
+            return import_module(f"{package}.{name}")
         message = f"module {package!r} has no attribute {name!r}"
         raise AttributeError(message)
 

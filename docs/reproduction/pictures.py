@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from reproduction.runs import CASES, MODELS, lateral_velocity, response
 from reproduction.stability import locus, stiffness
 from yawdamp_ros.pictures import new_figure, save
-from yawdamp_ros.pictures.figure import COLOURS, UNSTABLE, style
+from yawdamp_ros.pictures.figure import COLOURS, UNSTABLE, add_legend, style
 
 LABELS = {
     "lateral_velocity": "lateral velocity, m/s",
@@ -66,7 +66,7 @@ def _truck_and_trailer() -> Figure:
             column[1].plot(run.time, run.yaw_rate[:, index], **line)
         style(column[0], "", LABELS["lateral_velocity"], title)
         style(column[1], "time, s", LABELS["yaw_rate"])
-    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    add_legend(figure, 2, panels[0, 0].get_legend_handles_labels()[0])
     return figure
 
 
@@ -87,7 +87,7 @@ def _both_models(case: str, quantities: Sequence[str]) -> Figure:
                 "" if row else f"{model} model",
             )
     figure.suptitle(f"{CASES[case].vehicle}, {CASES[case].speed:g} m/s", fontsize="medium")
-    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    add_legend(figure, 3, panels[0, 0].get_legend_handles_labels()[0])
     return figure
 
 
@@ -114,5 +114,5 @@ def _diverging_yaw() -> Figure:
     for index, unit in enumerate(run.unit_names):
         axes.plot(run.time, run.yaw[:, index], color=COLOURS[index], linewidth=1.2, label=unit)
     style(axes, "time, s", LABELS["yaw"], "published model, C2 = C3 = 290 kN/rad, sine")
-    figure.legend(loc="outside right center", fontsize="small")
+    add_legend(figure, len(run.unit_names))
     return figure

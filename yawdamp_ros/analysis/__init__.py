@@ -143,3 +143,7 @@ __getattr__ = load_on_use(
         "yawdamp_ros.analysis.yaw_damping": ("damping_of_peaks", "pulse_decay", "yaw_damping_coefficient"),
     },
 )
+
+
+def __dir__() -> list[str]:
+    return __all__

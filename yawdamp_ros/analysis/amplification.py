@@ -76,9 +76,9 @@ def amplification_at(model: LinearModel, frequencies: FloatArray) -> FloatArray:
     units = len(model.vehicle.units)
     s = 2j * np.pi * np.asarray(frequencies)[:, np.newaxis, np.newaxis]
     try:
-        states = np.linalg.solve(
-            s * np.eye(2 * units) - model.state_matrix, model.input_matrix[:, np.newaxis]
-        )
+        # NumPy 1 does not broadcast the right-hand side of stacked systems.
+        inputs = np.broadcast_to(model.input_matrix[:, np.newaxis], (len(s), 2 * units, 1))
+        states = np.linalg.solve(s * np.eye(2 * units) - model.state_matrix, inputs)
     except np.linalg.LinAlgError as error:
         message = f"{model.vehicle.name}: an undamped mode: there is no frequency response"
         raise AnalysisError(message) from error

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from yawdamp_ros.analysis import Finding, assess, failed
-from yawdamp_ros.cli.console import print_table
 from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.number import number
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     Parser,
@@ -16,6 +16,7 @@ from yawdamp_ros.cli.options import (
     add_vehicle_options,
     chosen_vehicle,
 )
+from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
 PAGES = (".html", ".htm")
@@ -41,6 +42,8 @@ def main(argv: Sequence[str]) -> int:
         print(json.dumps([_record(finding) for finding in findings], indent=2))
     else:
         _print_text(f"{vehicle.name}, {model} model", findings)
+        if options.definitions:
+            _print_definitions(findings)
     return 1 if failed(findings) else 0
 
 
@@ -51,7 +54,7 @@ def _parser() -> argparse.ArgumentParser:
         "with the levels of the Australian PBS scheme and of RTAC. Each measure is taken at the speed that\n"
         "its standard names, else at the vehicle's own; --speed is for all.\n"
         "Exit status: 0 if no level is failed, 1 if one is or may be, 2 for wrong use.",
-        "python -m yawdamp_ros assess --vehicle a_double --srt 0.4",
+        "yawdamp assess --vehicle a_double --srt 0.4",
     )
     add_vehicle_options(parser)
     add_format_option(parser)
@@ -59,6 +62,9 @@ def _parser() -> argparse.ArgumentParser:
         "--html",
         metavar="FILE",
         help="also write one page for a browser: table, curves, animated plan view, mode shapes, definitions",
+    )
+    parser.add_argument(
+        "--definitions", action="store_true", help="also say what each measure is, and its levels in full"
     )
     parser.add_argument(
         "--srt",
@@ -98,7 +104,7 @@ def _print_text(title: str, findings: Sequence[Finding]) -> None:
         [
             (
                 finding.measure.name,
-                "none" if finding.value is None else f"{finding.value:.4g}",
+                "none" if finding.value is None else number(finding.value),
                 finding.measure.unit,
                 f"{finding.speed:.2f}",
                 _verdict(finding),
@@ -106,11 +112,13 @@ def _print_text(title: str, findings: Sequence[Finding]) -> None:
             )
             for finding in findings
         ],
+        prose=(5, 0),
     )
     values = {finding.measure.name: finding.value for finding in findings}
     gradient = values["understeer_gradient"]
     if gradient is not None:
-        print(f"understeer gradient: {math.degrees(gradient) * STANDARD_GRAVITY:.4g} deg/g")
+        shown = math.degrees(gradient) * STANDARD_GRAVITY if number(gradient) != "0" else 0.0
+        print(f"understeer gradient: {number(shown)} deg/g")
     for reason in dict.fromkeys(finding.reason for finding in findings if finding.reason):
         print(f"no value: {reason}")
     for finding in findings:
@@ -122,6 +130,10 @@ def _print_text(title: str, findings: Sequence[Finding]) -> None:
         print(
             "--srt G, the static rollover threshold, decides on the level of PBS for rearward amplification"
         )
+
+
+def _print_definitions(findings: Sequence[Finding]) -> None:
     print("\nDefinitions; levels are from secondary sources")
     for finding in findings:
-        print(f"  {finding.measure.name}: {finding.measure.definition}")
+        level = f" ({finding.level})" if finding.level else ""
+        print(f"  {finding.measure.name}: {finding.measure.definition}{level}")

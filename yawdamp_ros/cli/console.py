@@ -1,7 +1,4 @@
-"""What commands show: tables on standard output, progress on standard error."""
-
-import sys
-from collections.abc import Sequence
+"""Progress of commands, on standard error."""
 
 from rich.console import Console
 from rich.progress import (
@@ -13,21 +10,7 @@ from rich.progress import (
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
-from rich.table import Table
 from rich.text import Text
-
-PIPE_WIDTH = 200
-"""Columns of a table that goes to a pipe or a file, which has no edge."""
-
-
-def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table; the first column is text, the others are numbers."""
-    table = Table(title=Text(title), title_justify="left")
-    for index, column in enumerate(columns):
-        table.add_column(Text(column), justify="right" if index else "left", no_wrap=True)
-    for row in rows:
-        table.add_row(*map(Text, row))
-    Console(width=None if sys.stdout.isatty() else PIPE_WIDTH).print(table)
 
 
 class _Done(ProgressColumn):
@@ -46,6 +29,8 @@ class _Done(ProgressColumn):
 def progress_bar(unit: str = "s") -> Progress:
     """A progress bar on standard error; silent where that is no terminal."""
     console = Console(stderr=True)
+    # Besides `disable`: rich before 14 ends a disabled bar with an empty line.
+    console.quiet = not console.is_terminal
     return Progress(
         TextColumn("{task.description}"),
         BarColumn(),

@@ -7,7 +7,9 @@ from importlib import import_module
 from types import MappingProxyType
 
 from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.program import program
 from yawdamp_ros.errors import YawdampError
+from yawdamp_ros.version import VERSION
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
     {
@@ -42,7 +44,7 @@ def run(arguments: Sequence[str]) -> int:
     int
         Exit status: 0, 1 for a negative answer, 2 for wrong use, 130 when interrupted.
     """
-    prefix = " ".join(["yawdamp_ros", *arguments[:1]])
+    prefix = " ".join([program(), *arguments[:1]])
     try:
         try:
             return _dispatch(arguments)
@@ -64,6 +66,9 @@ def _dispatch(arguments: Sequence[str]) -> int:
     if not arguments or arguments[0] in {"-h", "--help"}:
         print(_overview())
         return 0 if arguments else WRONG_USE
+    if arguments[0] == "--version":
+        print(f"yawdamp_ros {VERSION}")
+        return 0
     name, *rest = arguments
     if name not in COMMANDS:
         message = f"no such command; expected one of {', '.join(COMMANDS)}"
@@ -76,8 +81,8 @@ def _overview() -> str:
     width = max(map(len, COMMANDS))
     commands = "\n".join(f"  {name:{width}}  {summary}" for name, summary in COMMANDS.items())
     return (
-        "usage: python -m yawdamp_ros COMMAND ...   (or: ros2 run yawdamp_ros COMMAND ...)\n\n"
+        f"usage: {program()} COMMAND ...\n       {program()} --version\n\n"
         "Lateral dynamics of heavy vehicle combinations.\n\n"
         f"commands (each explains itself with --help):\n{commands}\n\n"
-        "example:\n  python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --duration 15"
+        f"example:\n  {program()} sim --vehicle interlink --manoeuvre lane_change --duration 15"
     )

@@ -40,7 +40,7 @@ def mapping(chunks: int, jobs: int | None, scheduler: str | None) -> Iterator[Ma
     Raises
     ------
     UsageError
-        If the scheduler cannot be reached, or dask.distributed is not installed, or a worker ends.
+        If the scheduler cannot be reached, or a worker ends.
     """
     processes = min(jobs, chunks) if jobs else min(os.cpu_count() or 1, chunks // WORTHWHILE)
     if scheduler is None and processes <= 1:
@@ -80,11 +80,8 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _cluster(address: str) -> Iterator[Mapped]:
-    try:
-        from distributed import Client, KilledWorker  # noqa: PLC0415 - the extra is optional
-    except ImportError as error:
-        message = "--scheduler: dask.distributed is not installed: pip install 'yawdamp_ros[cluster]'"
-        raise UsageError(message) from error
+    from distributed import Client, KilledWorker  # noqa: PLC0415 - an optional library
+
     try:
         client = Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.program import program
 from yawdamp_ros.dynamics import MODELS, LinearModel, linear_model
 from yawdamp_ros.errors import one_line
 from yawdamp_ros.manoeuvres import MANOEUVRES
@@ -56,13 +57,13 @@ RUN_SETTINGS = (
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are one line each, and whose options count once."""
+    """An argument parser whose errors are a line each, options count once, examples begin with ``yawdamp``."""
 
     def __init__(self, name: str, description: str, example: str) -> None:
         super().__init__(
-            prog=f"yawdamp_ros {name}",
+            prog=f"{program()} {name}",
             description=description,
-            epilog=f"example:\n  {example}",
+            epilog=f"example:\n  {example}".replace("  yawdamp ", f"  {program()} "),
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )

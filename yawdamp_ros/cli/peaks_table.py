@@ -1,7 +1,7 @@
 """The short table that ends a run."""
 
 from yawdamp_ros.analysis.peaks import Peaks
-from yawdamp_ros.cli.console import print_table
+from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.dynamics import LinearModel
 
 

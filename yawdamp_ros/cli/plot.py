@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.options import Parser
 from yawdamp_ros.logs import is_recording
 from yawdamp_ros.runs import read_response_csv, read_response_recording
@@ -19,8 +20,8 @@ def main(argv: Sequence[str]) -> int:
         "plot",
         "Steer angle, yaw, yaw rate, lateral acceleration and articulation over time, and the paths where a\n"
         "run holds them. Several runs are compared in one picture.",
-        "python -m yawdamp_ros plot runs/20261121-120000_interlink --output run.html\n"
-        "  python -m yawdamp_ros plot interlink.csv interlink_rated_tyres.csv --output comparison.svg",
+        "yawdamp plot runs/20261121-120000_interlink --output run.html\n"
+        "  yawdamp plot interlink.csv interlink_rated_tyres.csv --output comparison.svg",
     )
     parser.add_argument(
         "runs",
@@ -39,6 +40,7 @@ def main(argv: Sequence[str]) -> int:
     if kind not in KINDS:
         message = f"--output: {options.output}: expected a name ending in {', '.join(KINDS)}"
         raise UsageError(message)
+    require("plotly" if kind == ".html" else "matplotlib")
     runs = [(name, _read(Path(run))) for name, run in zip(_names(options.runs), options.runs, strict=True)]
     _draw(runs, options.output, kind)
     print(options.output)

@@ -71,8 +71,8 @@ def _parser() -> "argparse.ArgumentParser":
         "replay",
         "Publish a recorded drive at its own pace: its steering on /steering, as road-wheel angles, and its\n"
         "speed, where it has one, on /speed.",
-        "python -m yawdamp_ros replay drive.csv --column steering_wheel_angle_deg --steering-ratio 16.88\n"
-        "  python -m yawdamp_ros replay runs/20261121-120000_interlink",
+        "yawdamp replay drive.csv --column steering_wheel_angle_deg --steering-ratio 16.88\n"
+        "  yawdamp replay runs/20261121-120000_interlink",
     )
     parser.add_argument("log", metavar="LOG", help="CSV with named columns, MCAP file or rosbag2 directory")
     parser.add_argument("--rate", type=float, default=1.0, help="times as fast as recorded; default: 1")

@@ -143,7 +143,7 @@ def _parser() -> Parser:
         "Run a recorded run again from what it contains, compare every value of every output, and say\n"
         "whether they are bit-identical. A CSV file, of every step, needs to be told its vehicle.\n"
         "Exit status 1 if a value is not what was promised.",
-        "python -m yawdamp_ros resimulate runs/20261121-120000_interlink",
+        "yawdamp resimulate runs/20261121-120000_interlink",
     )
     parser.add_argument("run", metavar="RUN", help="run directory, its MCAP file, or CSV file")
     add_format_option(parser)

@@ -119,7 +119,7 @@ def _parser() -> "argparse.ArgumentParser":
         "sim",
         "The simulator node: steering in on /steering, the motion of every unit out, recorded. Every\n"
         "parameter of the node can also follow --ros-args.",
-        "python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --duration 15\n"
+        "yawdamp sim --vehicle interlink --manoeuvre lane_change --duration 15\n"
         "  ros2 run yawdamp_ros sim --ros-args -p vehicle:=interlink -p publish_rate:=50.0",
     )
     add_vehicle_options(parser)

@@ -184,8 +184,8 @@ def _parser() -> Parser:
     parser = Parser(
         "simulate",
         "Simulate a manoeuvre or a steering log offline, as fast as it goes.",
-        "python -m yawdamp_ros simulate --manoeuvre lane_change --output run.csv\n"
-        "  python -m yawdamp_ros simulate --log drive.csv --steering-ratio 16.88",
+        "yawdamp simulate --manoeuvre lane_change --output run.csv\n"
+        "  yawdamp simulate --log drive.csv --steering-ratio 16.88",
     )
     add_vehicle_options(parser)
     add_manoeuvre_options(parser)

@@ -1,12 +1,13 @@
 """`stability`: the modes of a vehicle, and what they depend on."""
 
 import argparse
-import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 
 from yawdamp_ros.analysis import TransferFunction, eigenvalue_locus, parse_variation, transfer_function
 from yawdamp_ros.cli import stability_report
+from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     Parser,
@@ -32,6 +33,8 @@ def main(argv: Sequence[str]) -> int:
         raise UsageError(message)
     if options.vary:
         return _vary(options)
+    if _wants_picture(options):
+        require("matplotlib", "control")
     model = chosen_model(options)
     function = _transfer_function(options, model)
     if function:
@@ -49,7 +52,7 @@ def _parser() -> argparse.ArgumentParser:
         "stability",
         "Modes, damping, frequencies, understeer gradient, static gains and critical speed of a vehicle.\n"
         "Exit status: 0 if it is stable, 1 if it is not, 2 for wrong use; 0 with --vary.",
-        "python -m yawdamp_ros stability --vehicle interlink --vary speed=5:35:31 --plot locus.png",
+        "yawdamp stability --vehicle interlink --vary speed=5:35:31 --plot locus.png",
     )
     add_vehicle_options(parser)
     add_format_option(parser)
@@ -77,15 +80,18 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _wants_picture(options: argparse.Namespace) -> bool:
+    return any(getattr(options, picture) for picture in PICTURES)
+
+
 def _transfer_function(options: argparse.Namespace, model: LinearModel) -> TransferFunction | None:
-    pictures = [getattr(options, picture) for picture in PICTURES]
-    if options.output is None and not any(pictures):
+    if options.output is None and not _wants_picture(options):
         return None
     return transfer_function(model, options.output or f"{model.vehicle.unit_names[0]}/yaw_rate")
 
 
 def _draw(options: argparse.Namespace, function: TransferFunction) -> None:
-    if not any(getattr(options, picture) for picture in PICTURES):
+    if not _wants_picture(options):
         return
     # Here and not above: matplotlib takes longer to load than the rest takes to run.
     from yawdamp_ros.pictures import save  # noqa: PLC0415
@@ -99,9 +105,11 @@ def _draw(options: argparse.Namespace, function: TransferFunction) -> None:
 
 
 def _vary(options: argparse.Namespace) -> int:
-    if options.output or any(getattr(options, picture) for picture in PICTURES):
+    if options.output or _wants_picture(options):
         message = "--vary: not together with --output, --bode, --nyquist or --root-locus"
         raise UsageError(message)
+    if options.plot:
+        require("matplotlib")
     variation = parse_variation(options.vary)
     chosen_vehicle(options)  # warns of what is doubtful about it, whatever varies
     models = variation.models(chosen_name(options), overrides(options), options.model or DEFAULT_MODEL)
@@ -119,14 +127,6 @@ def _vary(options: argparse.Namespace) -> int:
     return 0
 
 
-def _progress(values: Sequence[float]) -> Iterable[float]:
-    from rich.console import Console  # noqa: PLC0415 - not needed by most calls
-    from rich.progress import track  # noqa: PLC0415
-
-    return track(
-        values,
-        description="varying",
-        console=Console(stderr=True),
-        transient=True,
-        disable=not sys.stderr.isatty(),
-    )
+def _progress(values: Sequence[float]) -> Iterator[float]:
+    with progress_bar("values") as bar:
+        yield from bar.track(values, description="varying")

@@ -20,7 +20,8 @@ from yawdamp_ros.analysis import (
     steady_steering,
 )
 from yawdamp_ros.cli.boundary_text import boundary_record, boundary_text
-from yawdamp_ros.cli.console import print_table
+from yawdamp_ros.cli.number import number
+from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
@@ -105,9 +106,9 @@ def print_text(answer: Stability, function: TransferFunction | None) -> None:
             (
                 " + ".join(mode.moving_units),
                 _complex(mode.eigenvalue),
-                f"{mode.damping_ratio:.4f}",
-                f"{mode.undamped_frequency:.4f}",
-                f"{mode.damped_frequency:.4f}",
+                number(mode.damping_ratio, ".4f"),
+                number(mode.undamped_frequency, ".4f"),
+                number(mode.damped_frequency, ".4f"),
             )
             for mode in answer.modes
         ],
@@ -123,9 +124,8 @@ def print_text(answer: Stability, function: TransferFunction | None) -> None:
     )
     steering = answer.steering
     degrees_per_g = math.degrees(steering.understeer_gradient) * STANDARD_GRAVITY
-    print(
-        f"\nundersteer gradient   {steering.understeer_gradient:.6f} rad/(m/s2) ({degrees_per_g:.4f} deg/g)"
-    )
+    gradient = f"{number(steering.understeer_gradient, '.6f')} rad/(m/s2)"
+    print(f"\nundersteer gradient   {gradient} ({number(degrees_per_g, '.4f')} deg/g)")
     print(f"equivalent wheelbase  {steering.equivalent_wheelbase:.4f} m")
     print(f"critical speed        {_critical_speed(answer)}")
     if answer.static_gains is None:
@@ -134,7 +134,7 @@ def print_text(answer: Stability, function: TransferFunction | None) -> None:
         print_table(
             "Static gains per rad of steer angle" if answer.stable else "Static gains, never settled to",
             ("output", "gain"),
-            [(name, f"{gain:.4f}") for name, gain in answer.static_gains.items()],
+            [(name, number(gain, ".4f")) for name, gain in answer.static_gains.items()],
         )
     if function:
         _print_transfer_function(function)
@@ -167,6 +167,7 @@ def print_locus_text(first: LinearModel, keys: Sequence[str], locus: Locus) -> N
             )
             for value, row in zip(locus.values, locus.eigenvalues, strict=True)
         ],
+        prose=(2, 0),
     )
     print()
     lowest, highest = sorted((locus.values[0], locus.values[-1]))
@@ -179,7 +180,7 @@ def print_locus_text(first: LinearModel, keys: Sequence[str], locus: Locus) -> N
 
 def _print_transfer_function(function: TransferFunction) -> None:
     print(f"\nTransfer function from steer angle to {function.output}")
-    print(f"  static gain  {function.static_gain:.6g}")
+    print(f"  static gain  {number(function.static_gain, '.6g')}")
     for name, values in (("poles", function.poles), ("zeros", function.zeros)):
         shown = "   ".join(_complex(complex(value)) for value in values if value.imag >= 0.0)
         print(f"  {name:11}  {shown or 'none'}")
@@ -209,8 +210,8 @@ def _pair(value: complex) -> list[float]:
 
 def _complex(value: complex) -> str:
     if not value.imag:
-        return f"{value.real:.4f}"
-    return f"{value.real:.4f} {'-' if value.imag < 0.0 else '+'} {abs(value.imag):.4f}i"
+        return number(value.real, ".4f")
+    return f"{number(value.real, '.4f')} {'-' if value.imag < 0.0 else '+'} {number(abs(value.imag), '.4f')}i"
 
 
 def _polar(value: complex) -> str:

@@ -17,6 +17,7 @@ from yawdamp_ros.cli import sweep_report
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.executors import mapping
+from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     DEFAULT_VEHICLE,
@@ -179,6 +180,10 @@ def _check(options: argparse.Namespace) -> None:
     for message, is_so in wrong.items():
         if is_so:
             raise UsageError(message)
+    if options.plot:
+        require("matplotlib")
+    if options.scheduler:
+        require("distributed")
 
 
 def _named_otherwise(path: str | None, *suffixes: str) -> bool:
@@ -191,8 +196,8 @@ def _parser() -> argparse.ArgumentParser:
         "A measure over ranges of one or two parameters, or of vehicles drawn at random from ranges, and\n"
         "stability beside it. Unless the speed is given or varied a measure is taken at its standard's.\n"
         "Exit status: 0, 2 for wrong use.",
-        "python -m yawdamp_ros sweep --vary speed=10:40:31 --vary units.2.mass=5000:40000:36 --plot map.png\n"
-        "  python -m yawdamp_ros sweep --random 100000 --range units.1.mass=4000:36000 --output drawn.csv",
+        "yawdamp sweep --vary speed=10:40:31 --vary units.2.mass=5000:40000:36 --plot map.png\n"
+        "  yawdamp sweep --random 100000 --range units.1.mass=4000:36000 --output drawn.csv",
     )
     add_vehicle_options(parser)
     add_format_option(parser)

@@ -10,7 +10,8 @@ import numpy as np
 from yawdamp_ros.analysis import MEASURES, Boundary, Variation
 from yawdamp_ros.analysis.study import Study
 from yawdamp_ros.cli.boundary_text import boundary_record, boundary_text
-from yawdamp_ros.cli.console import print_table
+from yawdamp_ros.cli.number import number
+from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 MOST_ROWS, MOST_COLUMNS = 60, 12
@@ -95,7 +96,7 @@ def _print_curve(sweep: Sweep) -> None:
         "",
         (sweep.axes[0].label, *sweep.study.columns),
         [
-            tuple(f"{value:.6g}" for value in (*point, *row))
+            tuple(number(value, ".6g") for value in (*point, *row))
             for point, row in zip(sweep.points, sweep.answers, strict=True)
         ],
     )
@@ -110,7 +111,7 @@ def _print_map(sweep: Sweep) -> None:
     print_table(
         f"{sweep.columns[-1]}; rows {sweep.axes[0].label}, columns {sweep.axes[1].label}",
         ("", *(f"{value:.6g}" for value in second)),
-        [(f"{value:.6g}", *(f"{each:.4g}" for each in row)) for value, row in zip(first, table, strict=True)],
+        [(f"{value:.6g}", *(number(each) for each in row)) for value, row in zip(first, table, strict=True)],
     )
 
 
@@ -123,7 +124,7 @@ def _print_distribution(sweep: Sweep) -> None:
     if len(known):
         unit = f" {sweep.unit}" if sweep.unit else ""
         shown = ", ".join(
-            f"{name} {value:.4g}"
+            f"{name} {number(value)}"
             for name, value in zip(
                 ("least", "5 %", "median", "95 %", "most"), np.quantile(known, QUANTILES), strict=True
             )

@@ -14,7 +14,7 @@ def main(arguments: Sequence[str]) -> int:
         "urdf",
         "A vehicle as URDF for robot_state_publisher: a link for every unit, a joint for every hitch and\n"
         "for the steered axle, named as in joint_states.",
-        "python -m yawdamp_ros urdf --vehicle interlink --output interlink.urdf",
+        "yawdamp urdf --vehicle interlink --output interlink.urdf",
     )
     add_vehicle_options(parser)
     parser.add_argument("--output", metavar="FILE", help="default: standard output")

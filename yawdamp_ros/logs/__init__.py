@@ -35,3 +35,7 @@ __getattr__ = load_on_use(
         "yawdamp_ros.logs.steering_mcap": ("read_steering_mcap",),
     },
 )
+
+
+def __dir__() -> list[str]:
+    return __all__

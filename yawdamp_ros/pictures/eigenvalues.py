@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from yawdamp_ros.analysis import Locus
-from yawdamp_ros.pictures.figure import UNSTABLE, new_figure, style
+from yawdamp_ros.pictures.figure import UNSTABLE, add_legend, new_figure, style
 
 
 def locus_figure(locus: Locus, parameter: str) -> Figure:
@@ -48,5 +48,5 @@ def locus_figure(locus: Locus, parameter: str) -> Figure:
     style(margin, parameter, "largest real part, 1/s", "unstable above 0")
     margin.xaxis.label.set_fontsize("small")
     margin.xaxis.set_major_locator(MaxNLocator(5))
-    figure.legend(loc="outside lower center", ncols=4, fontsize="small")
+    add_legend(figure, 4)
     return figure

@@ -1,11 +1,15 @@
 """One look for every picture, and files that do not differ when nothing has changed."""
 
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
 
 from yawdamp_ros.pictures.errors import PictureError
 
@@ -14,6 +18,9 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 
 STABLE, UNSTABLE = COLOURS[0], COLOURS[1]
 GREY = "#808080"
+
+LEGEND_MARGIN = 0.02
+"""Fraction of the figure's height between legend and axes."""
 
 FORMATS = {".png": "png", ".svg": "svg"}
 
@@ -31,6 +38,20 @@ def style(axes: Axes, x_label: str, y_label: str, title: str = "") -> None:
     axes.grid(visible=True, color="#e0e0e0", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
+
+
+def add_legend(figure: Figure, columns: int, handles: Sequence[Line2D] | None = None) -> Legend:
+    """Add a legend below all axes, of all curves or of given handles.
+
+    Matplotlib places legends outside the axes from 3.7 on; this way works before, too.
+    """
+    given = {} if handles is None else {"handles": handles}
+    legend = figure.legend(loc="lower center", ncols=columns, fontsize="small", **given)
+    height = legend.get_window_extent().height / figure.bbox.height + LEGEND_MARGIN
+    engine = figure.get_layout_engine()
+    if isinstance(engine, ConstrainedLayoutEngine):
+        engine.set(rect=(0.0, height, 1.0, 1.0 - height))
+    return legend
 
 
 def save(figure: Figure, path: str | Path, dpi: float = 120.0) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from yawdamp_ros.pictures.figure import new_figure, style
+from yawdamp_ros.pictures.figure import add_legend, new_figure, style
 from yawdamp_ros.pictures.run_panels import Panel, bands, run_panels
 from yawdamp_ros.stepping import Response
 
@@ -65,8 +65,6 @@ def _add_legend(figure: Figure, names: Sequence[str], panels: Sequence[Panel]) -
     elif names:
         # Names are no formulas, whatever signs are in them.
         figure.suptitle(names[0], fontsize="medium", parse_math=False)
-    legend = figure.legend(
-        handles=handles, loc="outside lower center", ncols=min(len(handles), 6), fontsize="small"
-    )
+    legend = add_legend(figure, min(len(handles), 6), handles)
     for text in legend.get_texts():
         text.set_parse_math(False)

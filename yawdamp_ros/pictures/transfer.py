@@ -7,8 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from yawdamp_ros.analysis import TransferFunction
-from yawdamp_ros.pictures.errors import PictureError
-from yawdamp_ros.pictures.figure import COLOURS, GREY, STABLE, UNSTABLE, new_figure, style
+from yawdamp_ros.pictures.figure import COLOURS, GREY, STABLE, UNSTABLE, add_legend, new_figure, style
 
 FREQUENCIES = np.geomspace(0.01, 10.0, 600)
 """In Hz: from far slower to far faster than a driver steers."""
@@ -22,7 +21,7 @@ def bode_figure(function: TransferFunction) -> Figure:
 
     Raises
     ------
-    PictureError
+    ModuleNotFoundError
         If python-control is not installed.
     """
     control, system = _system(function)
@@ -43,7 +42,7 @@ def nyquist_figure(function: TransferFunction) -> Figure:
 
     Raises
     ------
-    PictureError
+    ModuleNotFoundError
         If python-control is not installed.
     """
     control, system = _system(function)
@@ -69,7 +68,7 @@ def nyquist_figure(function: TransferFunction) -> Figure:
     unit = f"{_unit(function.output)}/rad"
     style(axes, f"real part, {unit}", f"imaginary part, {unit}", f"steer angle to {function.output}")
     axes.set_aspect("equal", "datalim")
-    figure.legend(loc="outside lower center", ncols=3, fontsize="small")
+    add_legend(figure, 3)
     return figure
 
 
@@ -78,7 +77,7 @@ def root_locus_figure(function: TransferFunction) -> Figure:
 
     Raises
     ------
-    PictureError
+    ModuleNotFoundError
         If python-control is not installed.
     """
     control, system = _system(function)
@@ -102,16 +101,13 @@ def root_locus_figure(function: TransferFunction) -> Figure:
     axes.set_ylim(-reach, reach)
     axes.axvspan(0.0, axes.get_xlim()[1], color=UNSTABLE, alpha=0.08, linewidth=0)
     axes.axvline(0.0, color=UNSTABLE, linewidth=1.0)
-    figure.legend(loc="outside lower center", ncols=2, fontsize="small")
+    add_legend(figure, 2)
     return figure
 
 
 def _system(function: TransferFunction) -> tuple[ModuleType, Any]:
-    try:
-        import control  # noqa: PLC0415 - the extra is optional
-    except ImportError as error:
-        message = "python-control is not installed; the extra brings it: pip install 'yawdamp_ros[analysis]'"
-        raise PictureError(message) from error
+    import control  # noqa: PLC0415 - an optional library
+
     system = control.ss(
         function.state_matrix,
         function.input_matrix[:, np.newaxis],

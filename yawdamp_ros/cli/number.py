@@ -1,0 +1,26 @@
+"""Numbers in tables."""
+
+ROUNDING_NOISE = 1e-9
+"""Magnitude in SI units below which a result is rounding of its inputs, and shown as 0."""
+
+
+def number(value: float, spec: str = ".4g") -> str:
+    """Format a result for people; what is below rounding noise is 0.
+
+    Parameters
+    ----------
+    value : float
+        In SI units.
+    spec : str
+        Format specification.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> number(4.4e-10), number(-0.00001, ".3f"), number(1.0185)
+    ('0', '0.000', '1.018')
+    """
+    return format(0.0 if abs(value) < ROUNDING_NOISE else value, f"z{spec}")

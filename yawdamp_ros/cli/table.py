@@ -1,0 +1,127 @@
+"""Tables that fit their terminal: numbers whole, prose shortened first."""
+
+import re
+import sys
+from collections.abc import Iterator, Sequence
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+PIPE_WIDTH = 200
+"""Columns of a table that goes to a pipe or a file, which has no edge."""
+LEAST_PROSE = 12
+"""Characters of prose that are always shown."""
+FRAME = 3
+"""Characters that a frame takes from each column; narrow tables have none, but two between columns."""
+
+_BREAKS = re.compile(r"(?<=_)(?=[a-z])|(?<=\+ )(?=[a-z])|(?<=   )(?=\S)|(?<=; )")
+"""Where prose may go on in the next line: in names, between modes, eigenvalues and levels."""
+
+
+def print_table(
+    title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], prose: Sequence[int] = (0,)
+) -> None:
+    """Print a table; where the terminal is too narrow, in several parts.
+
+    Parameters
+    ----------
+    title : str
+    columns : sequence of str
+        Headings.
+    rows : sequence of sequence of str
+        The first column is text, the others are numbers.
+    prose : sequence of int
+        Columns that may be shortened, the first one first.
+    """
+    console = Console(width=None if sys.stdout.isatty() else PIPE_WIDTH)
+    whole = _widths(columns, rows)
+    if sum(whole) + FRAME * len(columns) < console.width:
+        table = Table(title=Text(title), title_justify="left")
+        _fill(table, columns, rows, prose, whole)
+        console.print(table)
+        return
+    for part in _parts(columns, rows, prose, console.width):
+        headings = [columns[index] for index in part]
+        cells = [[row[index] for index in part] for row in rows]
+        told = [part.index(index) for index in prose if index in part]
+        table = Table(title=Text(title), title_justify="left", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
+        table.show_edge = False
+        _fill(table, headings, cells, told, _fitted(headings, cells, told, console.width))
+        console.print(table)
+
+
+def _fill(
+    table: Table,
+    columns: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    prose: Sequence[int],
+    widths: Sequence[int],
+) -> None:
+    for index, (column, width) in enumerate(zip(columns, widths, strict=True)):
+        table.add_column(Text(column), justify="right" if index else "left", width=width, overflow="ellipsis")
+    for row in rows:
+        table.add_row(
+            *(
+                Text("\n".join(_lines(cell, widths[index])) if index in prose else cell, no_wrap=True)
+                for index, cell in enumerate(row)
+            )
+        )
+
+
+def _widths(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[int]:
+    return [max(len(column), *_lengths(rows, index)) for index, column in enumerate(columns)]
+
+
+def _fitted(
+    columns: Sequence[str], rows: Sequence[Sequence[str]], prose: Sequence[int], width: int
+) -> list[int]:
+    """Widths of columns that are shortened as far as they need to: prose, then headings."""
+    widths = _widths(columns, rows)
+    excess = sum(widths) + 2 * (len(columns) - 1) + 1 - width
+    least = _least(columns, rows, prose)
+    for index in [*prose, *(index for index in range(len(columns)) if index not in prose)]:
+        cut = max(0, min(excess, widths[index] - least[index]))
+        widths[index] -= cut
+        excess -= cut
+    return widths
+
+
+def _least(columns: Sequence[str], rows: Sequence[Sequence[str]], prose: Sequence[int]) -> list[int]:
+    """Least widths of columns: numbers and the words of a heading are whole."""
+    words = [max(map(len, column.split()), default=0) for column in columns]
+    return [
+        min(LEAST_PROSE, max(len(column), *_lengths(rows, index)))
+        if index in prose
+        else max(words[index], *_lengths(rows, index))
+        for index, column in enumerate(columns)
+    ]
+
+
+def _parts(
+    columns: Sequence[str], rows: Sequence[Sequence[str]], prose: Sequence[int], width: int
+) -> Iterator[list[int]]:
+    """Columns of each part of a table, all of which begin with the first column."""
+    least = _least(columns, rows, prose)
+    part = [0]
+    for index in range(1, len(columns)):
+        if len(part) > 1 and sum(least[each] + 2 for each in [*part, index]) - 1 > width:
+            yield part
+            part = [0]
+        part.append(index)
+    yield part
+
+
+def _lengths(rows: Sequence[Sequence[str]], index: int) -> list[int]:
+    return [0, *(len(row[index]) for row in rows)]
+
+
+def _lines(cell: str, width: int) -> list[str]:
+    """Prose in lines of a width, where there is a place to break it."""
+    lines = [""]
+    for piece in _BREAKS.split(cell):
+        if lines[-1] and len(lines[-1]) + len(piece.rstrip()) > width:
+            lines.append("")
+        lines[-1] += piece
+    return [line.rstrip() for line in lines]
