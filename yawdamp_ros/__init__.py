@@ -9,7 +9,7 @@ from yawdamp_ros.lazy import load_on_use
 from yawdamp_ros.version import VERSION
 
 if TYPE_CHECKING:
-    from yawdamp_ros import analysis, dynamics, logs, manoeuvres, pictures, simulation, stepping, vehicle
+    from yawdamp_ros import analysis, drives, dynamics, logs, manoeuvres, pictures, simulation, stepping, vehicle
     from yawdamp_ros.dynamics import linear_model
     from yawdamp_ros.simulation import simulate
     from yawdamp_ros.vehicle import load_vehicle
@@ -19,6 +19,7 @@ __version__ = VERSION
 __all__ = [
     "__version__",
     "analysis",
+    "drives",
     "dynamics",
     "linear_model",
     "load_vehicle",
@@ -38,7 +39,7 @@ __getattr__ = load_on_use(
         "yawdamp_ros.simulation": ("simulate",),
         "yawdamp_ros.vehicle": ("load_vehicle",),
     },
-    ("analysis", "dynamics", "logs", "manoeuvres", "pictures", "simulation", "stepping", "vehicle"),
+    ("analysis", "drives", "dynamics", "logs", "manoeuvres", "pictures", "simulation", "stepping", "vehicle"),
 )
 
 

