@@ -60,5 +60,5 @@ def test_an_unknown_name_of_the_package_is_an_attribute_error() -> None:
 def test_a_command_that_needs_ros_says_what_to_install() -> None:
     found = loaded_by("from yawdamp_ros.cli import run\nprint(run(['sim']))", without_ros=True)
     assert found.stdout == "2\n"
-    assert found.stderr.startswith("yawdamp_ros sim: needs ROS 2: source a Jazzy, or pip install")
+    assert found.stderr.startswith("yawdamp sim: needs ROS 2: source a Jazzy, or pip install")
     assert found.stderr.count("\n") == 1

@@ -9,7 +9,17 @@ from yawdamp_ros.lazy import load_on_use
 from yawdamp_ros.version import VERSION
 
 if TYPE_CHECKING:
-    from yawdamp_ros import analysis, drives, dynamics, logs, manoeuvres, pictures, simulation, stepping, vehicle
+    from yawdamp_ros import (
+        analysis,
+        drives,
+        dynamics,
+        logs,
+        manoeuvres,
+        pictures,
+        simulation,
+        stepping,
+        vehicle,
+    )
     from yawdamp_ros.dynamics import linear_model
     from yawdamp_ros.simulation import simulate
     from yawdamp_ros.vehicle import load_vehicle

@@ -50,7 +50,7 @@ def test_speed_model_and_changes_are_those_of_every_command(capsys: pytest.Captu
 
 
 def test_text_gives_value_unit_verdict_and_level(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["assess", "--vehicle", "a_double", "--srt", "0.3"]) == 1
+    assert run(["assess", "--vehicle", "a_double", "--srt", "0.3", "--definitions"]) == 1
     lines = capsys.readouterr().out.splitlines()
 
     def cells(measure: str) -> list[str]:

@@ -18,7 +18,7 @@ def test_every_command_explains_itself_with_an_example(name: str, capsys: pytest
         run([name, "--help"])
     assert caught.value.code == 0
     text = capsys.readouterr().out
-    assert f"yawdamp_ros {name}" in text
+    assert f"usage: yawdamp {name}" in text
     assert "example:" in text
 
 
@@ -61,5 +61,5 @@ def test_an_interrupt_of_offline_work_is_one_line(tmp_path: Path) -> None:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate()
-    assert (process.returncode, errors) == (130, "yawdamp_ros simulate: interrupted\n")
+    assert (process.returncode, errors) == (130, "python -m yawdamp_ros simulate: interrupted\n")
     assert (tmp_path / "run" / "metadata.yaml").is_file()

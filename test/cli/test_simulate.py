@@ -147,7 +147,7 @@ def test_wrong_use_is_one_line_and_status_2(
     monkeypatch.chdir(tmp_path)
     assert run(["simulate", *arguments]) == 2
     captured = capsys.readouterr()
-    assert captured.err.startswith(f"yawdamp_ros simulate: {message}") or message in captured.err
+    assert captured.err.startswith(f"yawdamp simulate: {message}") or message in captured.err
     assert captured.err.count("\n") == 1
     assert captured.out == ""
     assert list(tmp_path.iterdir()) == []

@@ -140,7 +140,7 @@ def test_interrupted_sweep_goes_on_from_its_file(tmp_path: Path) -> None:
     with under_way(command, output) as process:
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
-    assert (process.returncode, errors) == (130, "yawdamp_ros sweep: interrupted\n")
+    assert (process.returncode, errors) == (130, "python -m yawdamp_ros sweep: interrupted\n")
     written = output.read_text()
     assert 50 <= written.count("\n") - 1 < 1000
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=100)
@@ -158,7 +158,7 @@ def test_worker_that_ends_is_one_line_and_leaves_what_is_written(tmp_path: Path)
         _, errors = process.communicate(timeout=60)
     assert process.returncode == 2
     assert errors == (
-        "yawdamp_ros sweep: a worker process ended before its work did; what is written stands\n"
+        "python -m yawdamp_ros sweep: a worker process ended before its work did; what is written stands\n"
     )
     assert len(rows(output)) >= 50
 
@@ -190,7 +190,7 @@ def test_file_of_another_sweep_is_refused(tmp_path: Path, capsys: pytest.Capture
         captured = capsys.readouterr()
         assert captured.out == ""
         assert captured.err == (
-            f"yawdamp_ros sweep: {output}: is there and is not of this sweep; "
+            f"yawdamp sweep: {output}: is there and is not of this sweep; "
             "expected a new name, or the same sweep\n"
         )
 

@@ -27,7 +27,7 @@ def refused(path: Path) -> str:
     )
     assert (done.returncode, done.stdout) == (2, ""), done.stderr
     assert sorted(path.parent.iterdir()) == before
-    return checked(done.stderr, "yawdamp_ros sim: ")
+    return checked(done.stderr, "python -m yawdamp_ros sim: ")
 
 
 @pytest.mark.parametrize(

@@ -88,5 +88,5 @@ def test_security_that_cannot_be_had_is_one_line(graph: Graph) -> None:
     (graph.directory / "enclaves" / "yawdamp_sim").mkdir(parents=True)
     status, _, errors = outcome(graph.command("sim", "--ros-args", "--enclave", "/yawdamp_sim"))
     assert status == 2
-    assert errors.startswith("yawdamp_ros sim: ")
+    assert errors.startswith("python -m yawdamp_ros sim: ")
     assert len(errors.splitlines()) == 1

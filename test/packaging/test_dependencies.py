@@ -51,6 +51,11 @@ def test_lower_bounds_are_the_lowest_versions_that_are_tested() -> None:
     assert bounds == lowest
 
 
+def test_every_test_file_has_a_base_name_of_its_own() -> None:
+    names = [path.name for path in (ROOT / "test").rglob("test_*.py")]
+    assert len(names) == len(set(names)), sorted(name for name in names if names.count(name) > 1)
+
+
 def test_the_tests_import_nothing_that_package_xml_does_not_bring() -> None:
     for path in (ROOT / "test").rglob("*.py"):
         if "soak" in path.parts or path.name in NOT_COLLECTED:

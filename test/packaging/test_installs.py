@@ -133,6 +133,7 @@ def test_what_runs_is_the_installed_code(prefix: Path, tmp_path: Path) -> None:
     assert Path(imported).is_relative_to(python_path(prefix))
 
 
+@pytest.mark.timeout(400)
 def test_colcon_test_runs_the_tests_where_launch_testing_collects_them(
     colcon_prefix: Path, source: Path
 ) -> None:
