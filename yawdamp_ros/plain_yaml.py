@@ -51,6 +51,9 @@ def parse_yaml(text: str, most_values: int) -> Any:  # noqa: ANN401 - any YAML u
         problem = str(error.problem).partition("\n")[0].partition(", if necessary")[0]
         message = f"{where}not valid YAML: {problem}"
         raise ValueError(message) from error
+    except RecursionError as error:  # ruamel.yaml before 0.18 has no limit of its own
+        message = "not valid YAML: maximum depth of nesting exceeded"
+        raise ValueError(message) from error
     except Exception as error:  # a tag on a value that cannot have it makes ruamel.yaml raise anything
         problem = str(error).partition("\n")[0] or type(error).__name__
         message = f"not valid YAML: {problem}"

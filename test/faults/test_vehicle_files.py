@@ -114,7 +114,6 @@ def test_any_value_of_any_key_is_taken_or_refused_in_one_line(key: str, value: o
         ("? {a: 1}\n: 2", "found unhashable key"),
         ("name: a\nname: b", "line 2: not valid YAML: found duplicate key"),
         ("name: 2001-13-45", "month must be in 1..12"),
-        ("name: 2001-01-01 00:00:00 +99:99", "offset must be"),
         ("name: !!bool maybe", "not valid YAML"),
         ("name: !!int ''", "not valid YAML"),
         ("name: !!float ''", "not valid YAML"),
@@ -124,11 +123,18 @@ def test_any_value_of_any_key_is_taken_or_refused_in_one_line(key: str, value: o
         ("--- 1\n--- 2", "another document"),
         ("x: &x 1\ny: &x 2", "x: unknown key"),
     ],
-    ids=range(35),
+    ids=range(34),
 )
 def test_what_is_no_vehicle_is_refused_by_what_is_wrong_with_it(file: Path, text: str, said: str) -> None:
     file.write_text(text, encoding="utf-8")
     assert said in refusal("urdf", "--vehicle", file)
+
+
+def test_a_time_zone_that_there_is_not_is_refused(file: Path) -> None:
+    file.write_text(TRUCK.decode().replace("truck", "2001-01-01 00:00:00 +99:99", 1), encoding="utf-8")
+    said = refusal("urdf", "--vehicle", file)
+    # ruamel.yaml before 0.18 makes a time of it, which is no name either.
+    assert "offset must be" in said or "expected a name" in said
 
 
 @pytest.mark.parametrize("name", ["truck\\n", "truck\\r", "t" * 65])

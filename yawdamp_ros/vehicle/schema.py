@@ -25,7 +25,7 @@ def check_schema(data: Any, source: str) -> None:  # noqa: ANN401
         if abs(value) > 1e300 or math.isnan(value):  # noqa: PLR2004
             shown = value if isinstance(value, float) else "a very long number"
             raise VehicleError(source, key, f"{shown}: expected a finite number")
-    errors = sorted(_validator().iter_errors(data), key=lambda error: list(map(str, error.path)))
+    errors = sorted(_validator().iter_errors(_with_names(data)), key=lambda error: list(map(str, error.path)))
     if errors:
         raise _schema_error(errors[0], source)
 
@@ -54,6 +54,13 @@ def _numbers(node: Any, key: str) -> Iterator[tuple[str, float]]:  # noqa: ANN40
             yield from _numbers(child, _join(key, str(index)))
     elif isinstance(node, int | float):
         yield key, node
+
+
+def _with_names(node: Any) -> Any:  # noqa: ANN401
+    """Data whose keys are all text, as jsonschema before 4.18 needs them."""
+    if isinstance(node, dict):
+        return {str(name): _with_names(child) for name, child in node.items()}
+    return [_with_names(child) for child in node] if isinstance(node, list) else node
 
 
 @cache
