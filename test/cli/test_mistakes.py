@@ -266,7 +266,7 @@ def test_a_vehicle_that_cannot_be_is_refused(
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.count("\n") == 1
-    assert captured.err.startswith("yawdamp_ros stability: ")
+    assert captured.err.startswith("yawdamp stability: ")
     assert line in captured.err
     with pytest.raises(VehicleError):
         load_vehicle(path)

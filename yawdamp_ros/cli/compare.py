@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from yawdamp_ros.cli.console import print_table
 from yawdamp_ros.cli.drive_report import (
     COMPARISON_COLUMNS,
     comparison_record,
@@ -27,6 +26,7 @@ from yawdamp_ros.cli.options import (
     add_vehicle_options,
     chosen_vehicle,
 )
+from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.drives import Drive, compare, excitation, inputs_of, matches, predict
 from yawdamp_ros.drives.comparison import BANDS
 from yawdamp_ros.dynamics.kinematics import FloatArray
@@ -116,8 +116,8 @@ def _parser() -> Parser:
         "Simulated against measured, channel by channel: bias, gain, lag, RMS error, R2, coherence by\n"
         "frequency; how much the drive asked of the vehicle, and what the sensors' noise leaves to explain.\n"
         "The model follows the drive's speed. With --run, a recorded run takes the model's place.",
-        "python -m yawdamp_ros compare drive.csv --vehicle truck_trailer --steering-ratio 20\n"
-        "  python -m yawdamp_ros compare bag --run bag --channel truck/yaw_rate=/imu/data",
+        "yawdamp compare drive.csv --vehicle truck_trailer --steering-ratio 20\n"
+        "  yawdamp compare bag --run bag --channel truck/yaw_rate=/imu/data",
     )
     parser.add_argument("log", metavar="LOG", help="CSV, MCAP file, rosbag2 directory or .mat file")
     parser.add_argument("--run", metavar="RUN", help="of the node or of simulate, in place of a simulation")

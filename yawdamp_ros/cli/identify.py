@@ -5,7 +5,6 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from yawdamp_ros.cli.console import print_table
 from yawdamp_ros.cli.drive_report import COMPARISON_COLUMNS, comparison_record, comparison_rows, label, told
 from yawdamp_ros.cli.log_options import add_log_options, chosen_drive
 from yawdamp_ros.cli.options import (
@@ -17,6 +16,7 @@ from yawdamp_ros.cli.options import (
     chosen_vehicle,
     overrides,
 )
+from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.drives import DEFAULT, Drive, Identification, identify
 from yawdamp_ros.drives.identification import predictor_of
 from yawdamp_ros.vehicle import VehicleSource, vehicle_text
@@ -137,7 +137,7 @@ def _parser() -> Parser:
         "  steering_time_constant       first-order lag of the steering, s\n"
         "  units.1.load.0.position ..   any number of the vehicle file, by its key\n"
         "Exit status: 0, 1 if one of them cannot be seen in the drive, 2 for wrong use.",
-        "python -m yawdamp_ros identify drive.csv --vehicle truck_trailer --fit stiffness --fit inertia",
+        "yawdamp identify drive.csv --vehicle truck_trailer --fit stiffness --fit inertia",
     )
     parser.add_argument("log", metavar="LOG", help="CSV, MCAP file, rosbag2 directory or .mat file")
     parser.add_argument(

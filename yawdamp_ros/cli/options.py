@@ -57,7 +57,7 @@ RUN_SETTINGS = (
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are a line each, options count once, examples begin with ``yawdamp``."""
+    """An argument parser: errors are a line, options count once, examples begin with ``yawdamp``."""
 
     def __init__(self, name: str, description: str, example: str) -> None:
         super().__init__(
