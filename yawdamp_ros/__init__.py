@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         dynamics,
         logs,
         manoeuvres,
+        nonlinear,
         pictures,
         simulation,
         stepping,
@@ -35,6 +36,7 @@ __all__ = [
     "load_vehicle",
     "logs",
     "manoeuvres",
+    "nonlinear",
     "pictures",
     "simulate",
     "simulation",
@@ -49,7 +51,18 @@ __getattr__ = load_on_use(
         "yawdamp_ros.simulation": ("simulate",),
         "yawdamp_ros.vehicle": ("load_vehicle",),
     },
-    ("analysis", "drives", "dynamics", "logs", "manoeuvres", "pictures", "simulation", "stepping", "vehicle"),
+    (
+        "analysis",
+        "drives",
+        "dynamics",
+        "logs",
+        "manoeuvres",
+        "nonlinear",
+        "pictures",
+        "simulation",
+        "stepping",
+        "vehicle",
+    ),
 )
 
 
