@@ -78,7 +78,7 @@ UNIT_DEFAULTS: Mapping[str, Default] = MappingProxyType(
             lambda unit: 1.1 if unit.front_hitch is None else 0.9 if _is_dolly(unit) else 2.0,
         ),
         "roll_inertia": Default("kg m^2", "Sampson: radius of gyration 0.8 m", lambda unit: 0.64 * unit.mass),
-        "roll_axis_height": Default("m", "Factbook", lambda _: 0.6),
+        "roll_axis_height": Default("m", "Factbook: 0.6, less what tyres roll below it", lambda _: 0.5),
         "abs": Default("", "UN R13", lambda _: True),
         "hitch_height": Default(
             "m",
