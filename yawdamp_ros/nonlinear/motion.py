@@ -180,8 +180,11 @@ def rk4_steps(
 
 @compiled
 def _unusual(values: FloatArray) -> int:
-    """First element that is not finite, or beyond what a vehicle does; -1 where all are fine."""
+    """Element that is not finite, else the largest beyond what a vehicle does; -1 where all are fine."""
+    place, largest = -1, LARGEST
     for i in range(values.size):
-        if not abs(values[i]) < LARGEST:
+        if math.isnan(values[i]):
             return i
-    return -1
+        if abs(values[i]) >= largest:
+            place, largest = i, abs(values[i])
+    return place
