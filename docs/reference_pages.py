@@ -14,7 +14,7 @@ import parameter_table
 from yawdamp_ros.cli.dispatch import COMMANDS
 from yawdamp_ros.share import share_directory
 
-ROOMS = ("vehicle", "dynamics", "stepping", "manoeuvres", "analysis", "logs")
+ROOMS = ("vehicle", "dynamics", "nonlinear", "stepping", "manoeuvres", "analysis", "logs")
 """Rooms of the library that the reference describes, from the vehicle file upwards."""
 
 
