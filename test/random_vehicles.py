@@ -1,6 +1,7 @@
 """Random vehicles by the thousand, for what has to hold of all and would take Hypothesis too long."""
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -32,9 +33,10 @@ def made_up(generator: np.random.Generator, units: tuple[int, int] = (1, 5)) -> 
     return Vehicle("random", generator.uniform(2.0, 40.0), tuple(map(unit, range(count))))
 
 
-def built_in_but_changed(generator: np.random.Generator) -> Vehicle:
+def built_in_but_changed(generator: np.random.Generator, name: str | None = None) -> Vehicle:
     """One of those that come with the package, its numbers changed by factors and metres."""
-    vehicle = BUILT_IN[generator.integers(len(BUILT_IN))]
+    known = [vehicle for vehicle in BUILT_IN if name in {None, vehicle.name}]
+    vehicle = known[generator.integers(len(known))]
 
     def times(value: float, spread: float) -> float:
         return float(value * np.exp(generator.uniform(-spread, spread)))
@@ -60,3 +62,20 @@ def built_in_but_changed(generator: np.random.Generator) -> Vehicle:
         )
 
     return replace(vehicle, units=tuple(map(changed, vehicle.units)))
+
+
+def stacked(vehicles: Sequence[Vehicle]) -> Vehicle:
+    """Vehicles of one shape as a stack of them."""
+
+    def together(values: Sequence[object]) -> object:
+        first = values[0]
+        if isinstance(first, bool | str | None):
+            return first
+        if isinstance(first, float):
+            return np.array(values)
+        if isinstance(first, tuple):
+            return tuple(map(together, zip(*values, strict=True)))
+        names = [field.name for field in fields(first)]
+        return replace(first, **{name: together([getattr(each, name) for each in values]) for name in names})
+
+    return together(vehicles)

@@ -6,16 +6,20 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
+from random_vehicles import built_in_but_changed
 from yawdamp_ros.analysis import (
     critical_speed,
     eigenvalue_locus,
     find_boundaries,
     least_damping_ratio,
+    rightmost,
     speed_boundaries,
     zero_damping_speed,
 )
+from yawdamp_ros.analysis.speed_brackets import speed_brackets
 from yawdamp_ros.analysis.steady_state import steady_steering
 from yawdamp_ros.dynamics import LinearModel, linear_model
+from yawdamp_ros.dynamics.speed_family import StateMatrices
 from yawdamp_ros.vehicle import load_vehicle
 
 SPEED = 80 / 3.6
@@ -127,3 +131,38 @@ def test_zero_damping_speed_is_that_of_the_first_mode_that_swings() -> None:
     assert least_damping_ratio(linear_model(trailer, sway.value)) == pytest.approx(0.0, abs=1e-9)
     (spin,) = speed_boundaries(load_vehicle("single_vehicle", ["units.0.axles.1.cornering_stiffness=4e4"]))
     assert zero_damping_speed([spin]) is None
+
+
+def test_critical_speeds_of_random_vehicles_are_those_of_a_finer_scan() -> None:
+    generator, speeds = np.random.default_rng(23), np.linspace(0.5, 70.0, 1391)
+    lost = 0
+    for _ in range(40):
+        vehicle = built_in_but_changed(generator)
+        growth = np.linalg.eigvals(linear_model(vehicle, speeds).state_matrix).real.max(axis=1)
+        places = np.flatnonzero((growth[:-1] <= 0.0) & (growth[1:] > 0.0))
+        found = critical_speed(speed_boundaries(vehicle))
+        if len(places):
+            lost += 1
+            assert speeds[places[0]] <= found <= speeds[places[0] + 1]
+            assert abs(rightmost(linear_model(vehicle, found).state_matrix).real) < 1e-9
+        else:
+            assert found is None
+    assert lost > 5
+
+
+def test_two_changes_within_a_step_of_the_scan_are_seen() -> None:
+    """An eigenvalue that is positive from 19.97 to 20.03 m/s alone."""
+    # Re = 1 - (u - 20)^2 / 0.03^2 is no sum of 1, u and 1/u; near 20 m/s u/2 + 200/u is a parabola.
+    slack = 0.5 * 20.03 + 200.0 / 20.03
+    matrices = StateMatrices(*(np.full((1, 1, 1), part) for part in (slack, -200.0, -0.5)))
+    found = speed_brackets(matrices)
+    assert found.refined(matrices) == pytest.approx([400.0 / 20.03, 20.03], abs=1e-9)
+    assert found.unstable_above.tolist() == [True, False]
+
+
+@pytest.mark.parametrize("model", ["consistent", "published"])
+def test_matrices_of_any_speed_follow_from_three(model: str) -> None:
+    matrices = StateMatrices.of(INTERLINK, model, 1)
+    for speed in (0.5, 3.0, 22.0, 70.0):
+        expected = linear_model(INTERLINK, speed, model).state_matrix
+        np.testing.assert_allclose(matrices.at(speed)[0], expected, atol=1e-13 * np.abs(expected).max())

@@ -11,7 +11,7 @@ from yawdamp_ros.analysis import (
     SingleLaneChange,
     axle_path,
     run_lane_change,
-    steer_axle,
+    steer_axle_position,
 )
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.vehicle import builtin_vehicles
@@ -40,7 +40,7 @@ def test_path_is_the_acceleration_integrated_twice() -> None:
 def test_steer_axle_follows_the_path(name: str) -> None:
     model = model_of(name)
     response = run_lane_change(model)
-    path = axle_path(response, 0, steer_axle(model.vehicle).position)
+    path = axle_path(response, 0, steer_axle_position(model.vehicle))
     # The ground path is that of true headings, whose cosine differs from 1 by 0.1 %.
     np.testing.assert_allclose(path.y, SAE_J2179.path(response.time), atol=1.5e-3)
     end = np.searchsorted(response.time, 2.5)
@@ -52,7 +52,7 @@ def test_steer_axle_follows_the_path(name: str) -> None:
 def test_steer_axle_s_acceleration_is_the_sine(name: str) -> None:
     model = model_of(name)
     response = run_lane_change(model)
-    position = steer_axle(model.vehicle).position
+    position = steer_axle_position(model.vehicle)
     acceleration = response.lateral_acceleration[:, 0] + position * np.gradient(
         response.yaw_rate[:, 0], response.time
     )

@@ -67,15 +67,15 @@ def test_what_has_no_value_is_nan() -> None:
 
 
 def test_chunks_make_no_difference() -> None:
-    points = draw([(5e3, 3e4), (2e5, 4e5)], 120, seed=3)
+    points = draw([(5e3, 3e4), (2e5, 4e5)], 1200, seed=3)
     chosen = study("steady_offtracking")
     chunks = list(evaluate_all(chosen, points))
-    assert [len(chunk) for chunk in chunks] == [50, 50, 20]
+    assert [len(chunk) for chunk in chunks] == [500, 500, 200]
     np.testing.assert_allclose(np.concatenate(chunks), chosen.evaluate(points))
 
 
 def test_other_processes_give_the_same() -> None:
-    points = draw([(5e3, 3e4), (2e5, 4e5)], 120, seed=3)
+    points = draw([(5e3, 3e4), (2e5, 4e5)], 1200, seed=3)
     chosen = study("yaw_damping_coefficient")
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
         elsewhere = np.concatenate(list(evaluate_all(chosen, points, executor.map)))
@@ -84,7 +84,7 @@ def test_other_processes_give_the_same() -> None:
 
 def test_a_cluster_gives_the_same() -> None:
     distributed = pytest.importorskip("distributed")
-    points = draw([(5e3, 3e4), (2e5, 4e5)], 120, seed=3)
+    points = draw([(5e3, 3e4), (2e5, 4e5)], 1200, seed=3)
     chosen = study("yaw_damping_coefficient")
     with (
         distributed.LocalCluster(

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     )
     from yawdamp_ros.analysis.assessment import Finding, assess, failed
     from yawdamp_ros.analysis.boundaries import (
-        SPEEDS,
         Boundary,
         critical_speed,
         find_boundaries,
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
         SAE_J2179_SPEED,
         SingleLaneChange,
         run_lane_change,
-        steer_axle,
+        steer_axle_position,
     )
     from yawdamp_ros.analysis.locus import Locus, eigenvalue_locus
     from yawdamp_ros.analysis.measures import MEASURES, Level, Measure
@@ -39,6 +38,7 @@ if TYPE_CHECKING:
         high_speed_transient_offtracking,
         steady_offtracking,
     )
+    from yawdamp_ros.analysis.speed_brackets import SPEEDS
     from yawdamp_ros.analysis.steady_state import (
         SteadyTurn,
         Steering,
@@ -91,7 +91,7 @@ __all__ = [
     "steady_offtracking",
     "steady_steering",
     "steady_turn",
-    "steer_axle",
+    "steer_axle_position",
     "transfer_function",
     "yaw_damping_coefficient",
     "zero_damping_speed",
@@ -102,7 +102,6 @@ __getattr__ = load_on_use(
     {
         "yawdamp_ros.analysis.assessment": ("Finding", "assess", "failed"),
         "yawdamp_ros.analysis.boundaries": (
-            "SPEEDS",
             "Boundary",
             "critical_speed",
             "find_boundaries",
@@ -115,7 +114,7 @@ __getattr__ = load_on_use(
             "SAE_J2179_SPEED",
             "SingleLaneChange",
             "run_lane_change",
-            "steer_axle",
+            "steer_axle_position",
         ),
         "yawdamp_ros.analysis.locus": ("Locus", "eigenvalue_locus"),
         "yawdamp_ros.analysis.measures": ("MEASURES", "Level", "Measure"),
@@ -131,6 +130,7 @@ __getattr__ = load_on_use(
             "peak_amplification",
             "rearward_amplification",
         ),
+        "yawdamp_ros.analysis.speed_brackets": ("SPEEDS",),
         "yawdamp_ros.analysis.steady_state": (
             "SteadyTurn",
             "Steering",

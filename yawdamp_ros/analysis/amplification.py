@@ -3,14 +3,22 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import numpy.typing as npt
 
+from yawdamp_ros.analysis.answers import Answers, stack_of
 from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.analysis.frequency_response import FrequencyResponse
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 FREQUENCIES = np.concatenate([[0.0], np.geomspace(0.01, 4.0, 400)])
 """Searched for the largest amplification, in Hz: from a steady turn to faster than any driver steers."""
+
+
+BoolArray = npt.NDArray[np.bool_]
+
+_HALVINGS = 50
+"""Of the bracket of a peak: to a share of 1e-15 of it."""
 
 
 class PeakAmplification(NamedTuple):
@@ -48,11 +56,17 @@ def rearward_amplification(values: FloatArray) -> float:
     AnalysisError
         If the first unit does not move.
     """
-    peaks = np.abs(values).max(axis=0)
-    if not peaks[0]:
-        message = "rearward amplification: the first unit does not move"
-        raise AnalysisError(message)
-    return float(peaks[-1] / peaks[0])
+    value = rearward_amplifications(values[np.newaxis]).only()
+    return np.nan if value is None else value
+
+
+def rearward_amplifications(values: FloatArray) -> Answers:
+    """`rearward_amplification` of each of k vehicles, from values of shape (k, m, n)."""
+    peaks = np.abs(values).max(axis=1)
+    still = peaks[:, 0] == 0.0
+    message = "rearward amplification: the first unit does not move"
+    ratios = np.where(still, np.nan, peaks[:, -1] / np.where(still, 1.0, peaks[:, 0]))
+    return Answers(ratios, dict.fromkeys(np.flatnonzero(still).tolist(), message))
 
 
 def amplification_at(model: LinearModel, frequencies: FloatArray) -> FloatArray:
@@ -73,22 +87,15 @@ def amplification_at(model: LinearModel, frequencies: FloatArray) -> FloatArray:
     AnalysisError
         If a frequency is that of an undamped mode.
     """
-    units = len(model.vehicle.units)
-    s = 2j * np.pi * np.asarray(frequencies)[:, np.newaxis, np.newaxis]
-    try:
-        # NumPy 1 does not broadcast the right-hand side of stacked systems.
-        inputs = np.broadcast_to(model.input_matrix[:, np.newaxis], (len(s), 2 * units, 1))
-        states = np.linalg.solve(s * np.eye(2 * units) - model.state_matrix, inputs)
-    except np.linalg.LinAlgError as error:
+    found = _ratios(_ends(stack_of(model)), np.asarray(frequencies)[:, np.newaxis])[:, 0]
+    if not np.isfinite(found).all():
         message = f"{model.vehicle.name}: an undamped mode: there is no frequency response"
-        raise AnalysisError(message) from error
-    ends = [2 * units, 3 * units - 1]
-    first, last = (states[..., 0] @ model.output_matrix[ends].T + model.feedthrough[ends]).T
-    return np.asarray(np.abs(last / first), dtype=np.float64)
+        raise AnalysisError(message)
+    return found
 
 
 def peak_amplification(model: LinearModel) -> PeakAmplification:
-    """Rearward amplification by frequency, after ISO 14791, of which only the catalogue page was readable.
+    """Rearward amplification by frequency of one vehicle, see `peak_amplifications`.
 
     Parameters
     ----------
@@ -97,27 +104,78 @@ def peak_amplification(model: LinearModel) -> PeakAmplification:
     Returns
     -------
     PeakAmplification
-        The largest within `FREQUENCIES`, refined between them; at 0 Hz it is that of a steady turn, which
-        is 1.
 
     Raises
     ------
     AnalysisError
         If the model is unstable, so that no steering leads to a steady sine.
     """
-    if np.linalg.eigvals(model.state_matrix).real.max() >= 0.0:
-        message = f"{model.vehicle.name}: unstable at {model.speed:.4g} m/s: no sine is ever steady"
-        raise AnalysisError(message)
-    gains = amplification_at(model, FREQUENCIES)
-    best = int(np.argmax(gains))
-    bounds = FREQUENCIES[max(best - 1, 0)], FREQUENCIES[min(best + 1, len(FREQUENCIES) - 1)]
-    refined = minimize_scalar(
-        lambda frequency: -amplification_at(model, np.array([frequency]))[0],
-        bounds=bounds,
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    # A bounded search never quite reaches its bounds; and where all is rounding, the scan's place stands.
-    if -refined.fun > gains[best] * (1.0 + 1e-12):
-        return PeakAmplification(float(-refined.fun), float(refined.x))
-    return PeakAmplification(float(gains[best]), float(FREQUENCIES[best]))
+    gains, frequencies = peak_amplifications(stack_of(model))
+    return PeakAmplification(gains.only() or 0.0, frequencies.only() or 0.0)
+
+
+def peak_amplifications(model: LinearModel) -> tuple[Answers, Answers]:
+    """Rearward amplification by frequency, after ISO 14791, of which only the catalogue page was readable.
+
+    It is looked for at `FREQUENCIES`; between those beside the largest the place is found at which the slope
+    is 0.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of a stack of vehicles.
+
+    Returns
+    -------
+    gains, frequencies : Answers
+        The largest gain within `FREQUENCIES`, and where it is in Hz; at 0 Hz it is that of a steady turn,
+        which is 1. None where the vehicle is unstable.
+    """
+    reasons = {
+        index: f"{_name(model, index)}: no sine is ever steady"
+        for index in np.flatnonzero(np.linalg.eigvals(model.state_matrix).real.max(axis=1) >= 0.0).tolist()
+    }
+    ends = _ends(model)
+    scanned = _ratios(ends, FREQUENCIES[:, np.newaxis])
+    best = np.argmax(scanned, axis=0)
+    places = FREQUENCIES[best]
+    low = np.maximum(FREQUENCIES[np.maximum(best - 1, 0)], 1e-3 * places)
+    high = FREQUENCIES[np.minimum(best + 1, len(FREQUENCIES) - 1)]
+    peaks = (best > 0) & _rises(ends, low) & ~_rises(ends, high)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        rising = _rises(ends, middle)
+        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+    frequencies = np.where(peaks, 0.5 * (low + high), places)
+    gains = np.where(peaks, _ratios(ends, frequencies), scanned.max(axis=0))
+    for values in (gains, frequencies):
+        values[list(reasons)] = np.nan
+    return Answers(gains, reasons), Answers(frequencies, reasons)
+
+
+def _ends(model: LinearModel) -> FrequencyResponse:
+    """Lateral accelerations of the first and of the last unit."""
+    units = len(model.vehicle.units)
+    return FrequencyResponse.of(model, (2 * units, 3 * units - 1))
+
+
+def _ratios(ends: FrequencyResponse, frequencies: FloatArray) -> FloatArray:
+    """Last over first at frequencies in Hz, shape (..., k)."""
+    shape = (*frequencies.shape[:-1], len(ends.inputs))
+    s = np.asarray(2j * np.pi * np.broadcast_to(frequencies, shape), dtype=np.complex128)
+    with np.errstate(divide="ignore", invalid="ignore"):  # what has no steady sine has a reason
+        first, last = ends.gains(s)
+        return np.asarray(np.abs(last / first), dtype=np.float64)
+
+
+def _rises(ends: FrequencyResponse, frequencies: FloatArray) -> BoolArray:
+    """Whether the ratio rises with the frequency, shape (k,): ``d log abs G / d omega = -Im(G'/G)``."""
+    s = np.asarray(2j * np.pi * frequencies, dtype=np.complex128)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first, last = ends.slopes(s) / ends.gains(s)
+        return np.asarray(first.imag > last.imag)
+
+
+def _name(model: LinearModel, index: int) -> str:
+    speed = float(np.broadcast_to(model.speed, len(model.state_matrix))[index])
+    return f"{model.vehicle.name}: unstable at {speed:.4g} m/s"

@@ -1,6 +1,6 @@
 """Values of a measure for a stack of vehicles; one vehicle is a stack of one."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -8,7 +8,6 @@ import numpy as np
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.vehicle import unstacked
 
 
 @dataclass(frozen=True)
@@ -53,34 +52,3 @@ def stack_of(model: LinearModel) -> LinearModel:
         output_matrix=model.output_matrix[np.newaxis],
         feedthrough=model.feedthrough[np.newaxis],
     )
-
-
-def one_of(stack: LinearModel, index: int) -> LinearModel:
-    """One vehicle of a stack."""
-    return replace(
-        stack,
-        vehicle=unstacked(stack.vehicle, index),
-        speed=float(np.broadcast_to(stack.speed, len(stack.state_matrix))[index]),
-        state_matrix=stack.state_matrix[index],
-        input_matrix=stack.input_matrix[index],
-        output_matrix=stack.output_matrix[index],
-        feedthrough=stack.feedthrough[index],
-    )
-
-
-def one_by_one(measure: Callable[[LinearModel], float | None]) -> Callable[[LinearModel], Answers]:
-    """A measure of one vehicle as one of a stack of them."""
-
-    def answers(stack: LinearModel) -> Answers:
-        values = np.full(len(stack.state_matrix), np.nan)
-        reasons = {}
-        for index in range(len(values)):
-            try:
-                value = measure(one_of(stack, index))
-            except AnalysisError as error:
-                reasons[index] = str(error)
-            else:
-                values[index] = np.nan if value is None else value
-        return Answers(values, reasons)
-
-    return answers

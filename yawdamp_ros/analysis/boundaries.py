@@ -8,14 +8,14 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
+from yawdamp_ros.analysis.answers import Answers
 from yawdamp_ros.analysis.eigenmodes import rightmost
-from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.analysis.speed_brackets import SPEEDS, speed_brackets
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics.speed_family import StateMatrices
 from yawdamp_ros.vehicle import Vehicle
 
 Kind = Literal["monotonic", "oscillatory", "jump"]
-
-SPEEDS = (0.5, 70.0)
-"""Speeds in m/s that are searched for critical ones; a vehicle file may ask for up to 70 m/s."""
 
 _JUMP = 1e-3
 """Real part in 1/s that no root has: there the eigenvalue has gone through infinity, not through 0."""
@@ -81,7 +81,7 @@ def speed_boundaries(
     model : str
         One of `yawdamp_ros.dynamics.MODELS`.
     speeds : (float, float)
-        Range that is searched, in m/s, in steps of 0.1 m/s or less.
+        Range that is searched, in m/s, see `speed_brackets`.
 
     Returns
     -------
@@ -93,14 +93,33 @@ def speed_boundaries(
     DynamicsError
         If there is no such model for this vehicle.
     """
+    matrices = StateMatrices.of(vehicle, model, 1)
+    found = speed_brackets(matrices, speeds)
+    return tuple(
+        _boundary(value, bool(unstable_above), rightmost(matrices.at(value)[0]))
+        for value, unstable_above in zip(found.refined(matrices).tolist(), found.unstable_above, strict=True)
+    )
 
-    def eigenvalue(speed: float) -> complex:
-        return rightmost(linear_model(vehicle, speed, model).state_matrix)
 
-    lowest, highest = speeds
-    steps = int(np.ceil((highest - lowest) / 0.1)) + 1
-    scan = [(float(speed), eigenvalue(float(speed))) for speed in np.linspace(lowest, highest, steps)]
-    return find_boundaries(eigenvalue, scan)
+def critical_speeds(model: LinearModel) -> Answers:
+    """Lowest speed in `SPEEDS` at which an eigenvalue crosses into Re > 0 as the speed rises, if any.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of a stack of k vehicles; its speed does not matter.
+
+    Returns
+    -------
+    Answers
+        In m/s.
+    """
+    count = len(model.state_matrix)
+    matrices = StateMatrices.of(model.vehicle, model.model, count)
+    found = speed_brackets(matrices).of_first_loss()
+    values = np.full(count, np.nan)
+    values[found.vehicles] = found.refined(matrices)
+    return Answers(values)
 
 
 def critical_speed(boundaries: Iterable[Boundary]) -> float | None:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from yawdamp_ros.analysis.answers import Answers, stack_of
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
@@ -45,8 +46,7 @@ class Mode:
     @property
     def damping_ratio(self) -> float:
         """``-Re(lambda) / abs(lambda)``: 1 for a decaying real mode, -1 for a growing one."""
-        frequency = self.undamped_frequency
-        return -self.eigenvalue.real / frequency if frequency else 0.0
+        return float(damping_ratios(np.asarray(self.eigenvalue, dtype=np.complex128)))
 
 
 def modes(model: LinearModel) -> tuple[Mode, ...]:
@@ -70,7 +70,19 @@ def modes(model: LinearModel) -> tuple[Mode, ...]:
 
 def least_damping_ratio(model: LinearModel) -> float:
     """Damping ratio of the lightest damped mode."""
-    return modes(model)[0].damping_ratio
+    return float(least_damping_ratios(stack_of(model)).values[0])
+
+
+def least_damping_ratios(model: LinearModel) -> Answers:
+    """Damping ratio of the lightest damped mode of each of a stack of vehicles."""
+    eigenvalues = np.asarray(np.linalg.eigvals(model.state_matrix), dtype=np.complex128)
+    return Answers(damping_ratios(eigenvalues).min(axis=1))
+
+
+def damping_ratios(eigenvalues: ComplexArray) -> FloatArray:
+    """``-Re(lambda) / abs(lambda)`` of eigenvalues in 1/s, 0 at the origin."""
+    sizes = np.abs(eigenvalues)
+    return np.asarray(-eigenvalues.real / np.where(sizes > 0.0, sizes, 1.0), dtype=np.float64)
 
 
 def growth(model: LinearModel) -> str:

@@ -1,17 +1,19 @@
 """The single lane change of ISO 14791 and SAE J2179, by inverting the model."""
 
+import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
-from scipy.linalg import expm
 
+from yawdamp_ros.analysis.answers import stack_of
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.motion import free_motion
-from yawdamp_ros.dynamics import LinearModel, split_outputs
-from yawdamp_ros.dynamics.kinematics import FloatArray, coupled_positions
+from yawdamp_ros.analysis.motion import free_motion, stacked_exponential
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping import Response
-from yawdamp_ros.vehicle import Axle, Vehicle
+from yawdamp_ros.vehicle import Vehicle
 
 SAMPLE_PERIOD = 0.005
 """Of a run in s; the motion is exact at any."""
@@ -55,19 +57,17 @@ SAE_J2179_SPEED = 88.0 / 3.6
 """In m/s."""
 
 
-def steer_axle(vehicle: Vehicle) -> Axle:
-    """Foremost steered axle of the lead unit."""
-    return max((axle for axle in vehicle.units[0].axles if axle.steered), key=lambda axle: axle.position)
+def steer_axle_position(vehicle: Vehicle) -> float:
+    """Position of the foremost steered axle of the lead unit from its centre of gravity, in m; or of each."""
+    positions = [axle.position for axle in vehicle.units[0].axles if axle.steered]
+    foremost: float = functools.reduce(np.maximum, positions)
+    return foremost
 
 
 def run_lane_change(
     model: LinearModel, change: SingleLaneChange = SAE_J2179, duration: float = DURATION
 ) -> Response:
     """Motion of a vehicle whose steer axle follows the lane change.
-
-    The lateral acceleration of a steered axle contains the steer angle directly, so that the model can be
-    solved for the angle that a given acceleration takes. Sine, states and yaw form one linear system, whose
-    motion is exact at every sample; the ground path is the only quadrature.
 
     Parameters
     ----------
@@ -87,103 +87,172 @@ def run_lane_change(
         If the vehicle is unstable, or the units behind an axle that follows the path would swing out without
         bound (a zero of the model in the right half plane): no steering holds it on the path, then.
     """
-    system = _Inverse.of(model)
-    system.check(model)
-    instants = round(duration / SAMPLE_PERIOD) + 1
-    time: FloatArray = np.arange(instants, dtype=np.float64) * SAMPLE_PERIOD
-    period = 1.0 / change.frequency
-    turning = min(int(np.floor(period / SAMPLE_PERIOD)) + 1, instants)
-
-    start = np.zeros(system.size)
-    start[-1] = change.amplitude
-    matrix = system.matrix(2.0 * np.pi * change.frequency)
-    driven = free_motion(matrix, start, SAMPLE_PERIOD, turning)
-    # From the end of the sine, which need not be at a sample, the axle keeps its lane.
-    end = np.asarray(expm(matrix * period), dtype=np.float64) @ start
-    end[-2:] = 0.0
-    coasting = np.asarray(expm(matrix * (turning * SAMPLE_PERIOD - period)), dtype=np.float64) @ end
-    vectors = np.concatenate([driven, free_motion(matrix, coasting, SAMPLE_PERIOD, instants - turning)])
-    return _response(model, time, vectors, system.steering(vectors))
-
-
-def _response(model: LinearModel, time: FloatArray, vectors: FloatArray, steering: FloatArray) -> Response:
-    size = len(model.state_matrix)
-    states = vectors[:, :size]
-    outputs = split_outputs(
-        states @ model.output_matrix.T + np.outer(steering, model.feedthrough), len(model.vehicle.units)
-    )
-    lead_yaw = vectors[:, size, np.newaxis]
-    yaw = np.hstack([lead_yaw, lead_yaw - outputs.articulation.cumsum(axis=1)])
-    heading = np.exp(1j * yaw)
-    velocity = (model.speed + 1j * outputs.lateral_velocity[:, 0]) * heading[:, 0]
-    lead = cumulative_trapezoid(velocity, dx=SAMPLE_PERIOD, initial=0.0)
-    positions = coupled_positions(model.vehicle.hitches, lead, heading)
+    run = LaneChangeRuns(stack_of(model), change, duration)
+    if run.reasons:
+        raise AnalysisError(run.reasons[0])
+    units = len(model.vehicle.units)
+    outputs = run.outputs(range(4 * units - 1))[0].T
+    paths = run.paths()
     return Response(
         unit_names=model.vehicle.unit_names,
-        time=time,
-        steering_angle=steering,
-        yaw=yaw,
-        yaw_rate=outputs.yaw_rate,
-        lateral_acceleration=outputs.lateral_acceleration,
-        articulation=outputs.articulation,
-        x=positions.real,
-        y=positions.imag,
+        time=run.time,
+        steering_angle=run.steering()[0],
+        yaw=paths.yaw[0],
+        yaw_rate=outputs[:, units : 2 * units],
+        lateral_acceleration=outputs[:, 2 * units : 3 * units],
+        articulation=outputs[:, 3 * units :],
+        x=paths.x[0],
+        y=paths.y[0],
     )
 
 
-@dataclass(frozen=True)
-class _Inverse:
-    """The model solved for its steering: of ``a = row x + direct delta`` at the steer axle, delta by a."""
+class Paths(NamedTuple):
+    """Centres of gravity of n units of k vehicles at m instants.
 
-    state_matrix: FloatArray
-    input_matrix: FloatArray
-    row: FloatArray
-    direct: float
+    Attributes
+    ----------
+    yaw : ndarray, shape (k, m, n)
+        In rad.
+    x, y : ndarray, shape (k, m, n)
+        In m.
+    """
 
-    @classmethod
-    def of(cls, model: LinearModel) -> "_Inverse":
-        position = steer_axle(model.vehicle).position
-        output = model.output_names.index(f"{model.vehicle.unit_names[0]}/lateral_acceleration")
+    yaw: FloatArray
+    x: FloatArray
+    y: FloatArray
+
+
+class LaneChangeRuns:
+    """Runs of a stack of vehicles, each along the path that its steer axle follows.
+
+    The lateral acceleration of a steered axle contains the steer angle directly, so that the model can be
+    solved for the angle that a given acceleration takes. Sine, states and yaw form one linear system, whose
+    motion is exact at every sample; the ground path is the only quadrature.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of a stack of k vehicles.
+    change : SingleLaneChange
+    duration : float
+        In s, from the beginning of the lane change.
+
+    Attributes
+    ----------
+    time : ndarray, shape (m,)
+        In s.
+    reasons : dict of int to str
+        Why there is no run, by index of the vehicle. What a run without one gives is no motion of anything.
+    """
+
+    def __init__(
+        self, model: LinearModel, change: SingleLaneChange = SAE_J2179, duration: float = DURATION
+    ) -> None:
+        self._model = model
+        self._count, self._size = model.input_matrix.shape
+        instants = round(duration / SAMPLE_PERIOD) + 1
+        self.time: FloatArray = np.arange(instants, dtype=np.float64) * SAMPLE_PERIOD
+        position = np.asarray(steer_axle_position(model.vehicle), dtype=np.float64)[..., np.newaxis]
+        output = 2 * len(model.vehicle.units)
         # a_y + x r' of the lead unit
-        row = model.output_matrix[output] + position * model.state_matrix[1]
-        direct = float(model.feedthrough[output] + position * model.input_matrix[1])
-        return cls(model.state_matrix, model.input_matrix, row, direct)
+        self._row = model.output_matrix[:, output] + position * model.state_matrix[:, 1]
+        self._direct = model.feedthrough[:, output, np.newaxis] + position * model.input_matrix[:, 1:2]
+        self._inputs = model.input_matrix / self._direct
+        closed = model.state_matrix - self._inputs[:, :, np.newaxis] * self._row[:, np.newaxis]
+        self.reasons = self._refusals(closed)
+        self._rates = self._system(closed, 2.0 * np.pi * change.frequency)
+        # What cannot be held on the path would outgrow all numbers.
+        self._rates[list(self.reasons)] = 0.0
+        period = 1.0 / change.frequency
+        self._turning = min(int(np.floor(period / SAMPLE_PERIOD)) + 1, instants)
+        self._start = np.zeros((self._count, self._size + 3))
+        self._start[:, -1] = change.amplitude
+        # From the end of the sine, which need not be at a sample, the axle keeps its lane.
+        end = (stacked_exponential(self._rates * period) @ self._start[..., np.newaxis])[..., 0]
+        end[:, -2:] = 0.0
+        rest = stacked_exponential(self._rates * (self._turning * SAMPLE_PERIOD - period))
+        self._coasting = (rest @ end[..., np.newaxis])[..., 0]
 
-    @property
-    def size(self) -> int:
-        """Length of the vector [states, yaw of the lead unit, acceleration, its quarter turn]."""
-        return len(self.state_matrix) + 3
+    def outputs(self, indices: Sequence[int]) -> FloatArray:
+        """Some of the model's outputs, shape (k, len(indices), m)."""
+        chosen = list(indices)
+        known = self._model.output_matrix[:, chosen]
+        through = self._model.feedthrough[:, chosen]
+        return self._motion(self._rows(known, through))
 
-    @property
-    def closed(self) -> FloatArray:
-        """State matrix of the vehicle whose steer axle keeps its acceleration."""
-        return self.state_matrix - np.outer(self.input_matrix, self.row) / self.direct
+    def steering(self) -> FloatArray:
+        """Road-wheel steer angles in rad, shape (k, m)."""
+        none = np.zeros((self._count, 1, self._size))
+        return self._motion(self._rows(none, np.ones((self._count, 1))))[:, 0]
 
-    def matrix(self, frequency: float) -> FloatArray:
-        """Rates of that vector for an acceleration that is a sine of a frequency in rad/s."""
-        states = len(self.state_matrix)
-        rates = np.zeros((self.size, self.size))
-        rates[:states, :states] = self.closed
-        rates[:states, -2] = self.input_matrix / self.direct
-        rates[states, 1] = 1.0
-        rates[-2, -1], rates[-1, -2] = frequency, -frequency
+    def paths(self) -> Paths:
+        """Ground paths, which begin along x."""
+        units = len(self._model.vehicle.units)
+        needed = np.zeros((self._count, units + 1, self._size + 3))
+        needed[:, 0, 0] = 1.0  # lateral velocity of the lead unit
+        needed[:, 1, self._size] = 1.0  # its yaw
+        needed[:, 2:, units + 1 : self._size] = np.eye(units - 1)
+        motion = self._motion(needed)
+        yaw = motion[:, 1:].copy()
+        for unit in range(1, units):
+            yaw[:, unit] = yaw[:, unit - 1] - motion[:, unit + 1]
+        cosine, sine = np.cos(yaw), np.sin(yaw)
+        speed = np.broadcast_to(self._model.speed, self._count)[:, np.newaxis]
+        x, y = np.empty_like(yaw), np.empty_like(yaw)
+        x[:, 0] = _summed(speed * cosine[:, 0] - motion[:, 0] * sine[:, 0])
+        y[:, 0] = _summed(speed * sine[:, 0] + motion[:, 0] * cosine[:, 0])
+        for unit, hitches in enumerate(self._model.vehicle.hitches):
+            rear, front = (np.asarray(hitch, dtype=np.float64)[..., np.newaxis] for hitch in hitches)
+            for places, parts in ((x, cosine), (y, sine)):
+                places[:, unit + 1] = places[:, unit] + rear * parts[:, unit] - front * parts[:, unit + 1]
+        return Paths(*(part.transpose(0, 2, 1) for part in (yaw, x, y)))
+
+    def _motion(self, rows: FloatArray) -> FloatArray:
+        driven = free_motion(self._rates, self._start, SAMPLE_PERIOD, self._turning, rows)
+        left = len(self.time) - self._turning
+        if not left:
+            return driven
+        coasting = free_motion(self._rates, self._coasting, SAMPLE_PERIOD, left, rows)
+        return np.concatenate([driven, coasting], axis=2)
+
+    def _rows(self, known: FloatArray, through: FloatArray) -> FloatArray:
+        """Rows, by states and acceleration, of outputs by states and steering."""
+        rows = np.zeros((*known.shape[:2], self._size + 3))
+        # The steering that an acceleration takes.
+        by_angle = through / self._direct
+        rows[..., : self._size] = known - by_angle[..., np.newaxis] * self._row[:, np.newaxis]
+        rows[..., -2] = by_angle
+        return rows
+
+    def _system(self, closed: FloatArray, frequency: float) -> FloatArray:
+        """Rates of [states, yaw of the lead unit, acceleration, its quarter turn]."""
+        states = self._size
+        rates = np.zeros((self._count, states + 3, states + 3))
+        rates[:, :states, :states] = closed
+        rates[:, :states, -2] = self._inputs
+        rates[:, states, 1] = 1.0
+        rates[:, -2, -1], rates[:, -1, -2] = frequency, -frequency
         return rates
 
-    def steering(self, vectors: FloatArray) -> FloatArray:
-        """Steer angle in rad that the accelerations take."""
-        states = vectors[:, : len(self.state_matrix)]
-        return np.asarray((vectors[:, -2] - states @ self.row) / self.direct, dtype=np.float64)
-
-    def check(self, model: LinearModel) -> None:
-        """Refuse what no steering can lead through a lane change."""
-        name = f"{model.vehicle.name} at {model.speed:.4g} m/s"
-        if np.linalg.eigvals(self.state_matrix).real.max() >= 0.0:
-            message = f"{name}: unstable: there is no lane change to measure"
-            raise AnalysisError(message)
-        zero = np.linalg.eigvals(self.closed).real.max()
-        if zero >= 0.0:
-            message = (
-                f"{name}: its steer axle cannot be held on a lane change: a zero at {zero:.4g} 1/s "
-                "lets the vehicle swing out behind it"
+    def _refusals(self, closed: FloatArray) -> dict[int, str]:
+        """What no steering can lead through a lane change."""
+        unstable = np.linalg.eigvals(self._model.state_matrix).real.max(axis=1) >= 0.0
+        zeros = np.linalg.eigvals(closed).real.max(axis=1)
+        speeds = np.broadcast_to(self._model.speed, self._count)
+        reasons = {}
+        for index in np.flatnonzero(unstable | (zeros >= 0.0)).tolist():
+            name = f"{self._model.vehicle.name} at {speeds[index]:.4g} m/s"
+            reasons[index] = (
+                f"{name}: unstable: there is no lane change to measure"
+                if unstable[index]
+                else f"{name}: its steer axle cannot be held on a lane change: a zero at "
+                f"{zeros[index]:.4g} 1/s lets the vehicle swing out behind it"
             )
-            raise AnalysisError(message)
+        return reasons
+
+
+def _summed(velocity: FloatArray) -> FloatArray:
+    """Way from the start in m, by the trapezoidal rule, shape (k, m)."""
+    way = np.zeros_like(velocity)
+    np.cumsum(0.5 * SAMPLE_PERIOD * (velocity[:, 1:] + velocity[:, :-1]), axis=1, out=way[:, 1:])
+    return way

@@ -8,16 +8,19 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+import numpy as np
+
 from yawdamp_ros.analysis import boundaries, offtracking
 from yawdamp_ros.analysis.amplification import (
     FREQUENCIES,
-    peak_amplification,
-    rearward_amplification,
+    peak_amplifications,
+    rearward_amplifications,
 )
-from yawdamp_ros.analysis.answers import Answers, one_by_one, stack_of
-from yawdamp_ros.analysis.eigenmodes import least_damping_ratio
-from yawdamp_ros.analysis.lane_change import SAE_J2179, SAE_J2179_SPEED, run_lane_change
-from yawdamp_ros.analysis.steady_state import steady_steering
+from yawdamp_ros.analysis.answers import Answers, stack_of
+from yawdamp_ros.analysis.eigenmodes import least_damping_ratios
+from yawdamp_ros.analysis.lane_change import SAE_J2179, SAE_J2179_SPEED, LaneChangeRuns
+from yawdamp_ros.analysis.speed_brackets import SPEEDS
+from yawdamp_ros.analysis.steady_state import understeer_gradients
 from yawdamp_ros.analysis.yaw_damping import EXCITED, PULSE_WIDTH, yaw_dampings
 from yawdamp_ros.dynamics import LinearModel
 
@@ -91,26 +94,31 @@ class Measure:
         return self.answers(stack_of(model)).only()
 
 
-def _lane_change_offtracking(model: LinearModel) -> float:
-    return offtracking.high_speed_transient_offtracking(model.vehicle, run_lane_change(model))
+def _in_lane_change(quantity: int) -> Callable[[LinearModel], Answers]:
+    """Rearward amplification of a quantity of all units, as `LinearModel.output_names` orders them."""
 
+    def answers(model: LinearModel) -> Answers:
+        units, runs = len(model.vehicle.units), LaneChangeRuns(model)
+        ends = quantity * units, (quantity + 1) * units - 1
+        found = rearward_amplifications(runs.outputs(ends).transpose(0, 2, 1))
+        found.values[list(runs.reasons)] = np.nan
+        return Answers(found.values, {**found.reasons, **runs.reasons})
 
-def _critical_speed(model: LinearModel) -> float | None:
-    return boundaries.critical_speed(boundaries.speed_boundaries(model.vehicle, model.model))
+    return answers
 
 
 _J2179 = (
     "in the single lane change of SAE J2179 and ISO 14791, the steer axle's lateral acceleration one sine "
     f"period of {SAE_J2179.amplitude:.4g} m/s2 at {SAE_J2179.frequency:g} Hz"
 )
-_LOWEST, _HIGHEST = boundaries.SPEEDS
+_LOWEST, _HIGHEST = SPEEDS
 
 _ALL = (
     Measure(
         "least_damping_ratio",
         "",
         "smallest -Re/abs of the eigenvalues of the state matrix",
-        one_by_one(least_damping_ratio),
+        least_damping_ratios,
         levels=(Level("> 0 (stable)", 0.0, "above"),),
     ),
     Measure(
@@ -128,19 +136,19 @@ _ALL = (
         "rad/(m/s2)",
         "steer angle per lateral acceleration in a steady turn, beyond the Ackermann angle; "
         "positive is understeer",
-        one_by_one(lambda model: steady_steering(model).understeer_gradient),
+        understeer_gradients,
     ),
     Measure(
         "critical_speed",
         "m/s",
         f"lowest speed from {_LOWEST:g} to {_HIGHEST:g} m/s at which an eigenvalue crosses into Re > 0",
-        one_by_one(_critical_speed),
+        boundaries.critical_speeds,
     ),
     Measure(
         "rearward_amplification",
         "",
         f"largest lateral acceleration of the last unit over that of the first, {_J2179}",
-        one_by_one(lambda model: rearward_amplification(run_lane_change(model).lateral_acceleration)),
+        _in_lane_change(2),
         SAE_J2179_SPEED,
         (Level("PBS: <= 5.7 SRT/g", 5.7, per_srt=True), Level("RTAC: <= 2.2", 2.2)),
     ),
@@ -148,7 +156,7 @@ _ALL = (
         "rearward_amplification_yaw_rate",
         "",
         f"largest yaw rate of the last unit over that of the first, {_J2179}",
-        one_by_one(lambda model: rearward_amplification(run_lane_change(model).yaw_rate)),
+        _in_lane_change(1),
         SAE_J2179_SPEED,
     ),
     Measure(
@@ -156,19 +164,19 @@ _ALL = (
         "",
         "largest ratio of lateral accelerations, last unit over first, in steady sine steering up to "
         f"{FREQUENCIES[-1]:g} Hz (ISO 14791)",
-        one_by_one(lambda model: peak_amplification(model).gain),
+        lambda model: peak_amplifications(model)[0],
     ),
     Measure(
         "rearward_amplification_peak_frequency",
         "Hz",
         "where that largest ratio is reached",
-        one_by_one(lambda model: peak_amplification(model).frequency),
+        lambda model: peak_amplifications(model)[1],
     ),
     Measure(
         "high_speed_transient_offtracking",
         "m",
         f"largest lateral distance between the paths of the last axle and of the steer axle {_J2179}",
-        one_by_one(_lane_change_offtracking),
+        offtracking.lane_change_offtrackings,
         SAE_J2179_SPEED,
         (
             Level("PBS: <= 0.6, 0.8, 1.0, 1.2 for levels 1 to 4", 1.2),
@@ -180,7 +188,7 @@ _ALL = (
         "m",
         "radius of the last axle's path less that of the steer axle's on a steady curve of "
         f"{offtracking.STEADY_RADIUS:g} m; positive: outside",
-        one_by_one(offtracking.steady_offtracking),
+        offtracking.steady_offtrackings,
     ),
 )
 

@@ -1,9 +1,11 @@
 """The steady turn: how much steering a curve needs, and what the vehicle does in it."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
+from yawdamp_ros.analysis.answers import Answers, stack_of
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
@@ -45,6 +47,34 @@ class Steering:
     understeer_gradient: float
 
 
+class SteadyTurns(NamedTuple):
+    """Steady turns of k vehicles as `SteadyTurn`, NaN where no steer angle holds one.
+
+    Attributes
+    ----------
+    steering_angle, lateral_velocity : ndarray, shape (k,)
+    articulation : ndarray, shape (k, n - 1)
+    """
+
+    steering_angle: FloatArray
+    lateral_velocity: FloatArray
+    articulation: FloatArray
+
+
+def steady_turns(model: LinearModel) -> SteadyTurns:
+    """Solve for the steady turn of each of a stack of vehicles in which every unit yaws alike."""
+    rates = len(model.vehicle.units) + 1
+    unknown = [0, *range(rates, model.state_matrix.shape[-1])]
+    acting = model.input_matrix[:, :rates, np.newaxis]
+    balance = np.concatenate([model.state_matrix[:, :rates, unknown], acting], axis=2)
+    sizes = np.linalg.det(balance)
+    none = (sizes == 0.0)[:, np.newaxis, np.newaxis]
+    yawing = -model.state_matrix[:, :rates, 1:rates].sum(axis=2)
+    solution = np.linalg.solve(np.where(none, np.eye(rates), balance), yawing[..., np.newaxis])[..., 0]
+    solution[none[:, 0, 0]] = np.nan
+    return SteadyTurns(solution[:, -1], solution[:, 0], solution[:, 1:-1])
+
+
 def steady_turn(model: LinearModel) -> SteadyTurn:
     """Solve for the steady turn in which every unit yaws alike.
 
@@ -61,15 +91,11 @@ def steady_turn(model: LinearModel) -> SteadyTurn:
     AnalysisError
         If no steer angle holds such a turn.
     """
-    rates = len(model.vehicle.units) + 1
-    unknown = [0, *range(rates, len(model.state_matrix))]
-    balance = np.column_stack([model.state_matrix[:rates, unknown], model.input_matrix[:rates]])
-    try:
-        solution = np.linalg.solve(balance, -model.state_matrix[:rates, 1:rates].sum(axis=1))
-    except np.linalg.LinAlgError as error:
+    turns = steady_turns(stack_of(model))
+    if np.isnan(turns.steering_angle[0]):
         message = f"{model.vehicle.name}: no steer angle holds a steady turn"
-        raise AnalysisError(message) from error
-    return SteadyTurn(float(solution[-1]), float(solution[0]), solution[1:-1])
+        raise AnalysisError(message)
+    return SteadyTurn(float(turns.steering_angle[0]), float(turns.lateral_velocity[0]), turns.articulation[0])
 
 
 def steady_steering(model: LinearModel) -> Steering:
@@ -91,10 +117,26 @@ def steady_steering(model: LinearModel) -> Steering:
     AnalysisError
         If no steer angle holds a steady turn.
     """
-    faster = linear_model(model.vehicle, 2.0 * model.speed, model.model)
-    here, there = (steady_turn(each).steering_angle * each.speed for each in (model, faster))
-    slope = (there - here) / (faster.speed**2 - model.speed**2)
-    return Steering(here - slope * model.speed**2, slope)
+    steady_turn(model)
+    wheelbase, gradient = _steerings(stack_of(model))
+    return Steering(float(wheelbase[0]), float(gradient[0]))
+
+
+def understeer_gradients(model: LinearModel) -> Answers:
+    """`Steering.understeer_gradient` of each of a stack of vehicles, in rad/(m/s^2)."""
+    _, gradients = _steerings(model)
+    message = f"{model.vehicle.name}: no steer angle holds a steady turn"
+    return Answers(gradients, dict.fromkeys(np.flatnonzero(np.isnan(gradients)).tolist(), message))
+
+
+def _steerings(model: LinearModel) -> tuple[FloatArray, FloatArray]:
+    """Equivalent wheelbase and understeer gradient of each of a stack of vehicles."""
+    speed = np.broadcast_to(model.speed, len(model.state_matrix))
+    faster = stack_of(linear_model(model.vehicle, 2.0 * model.speed, model.model))
+    here = steady_turns(model).steering_angle * speed
+    there = steady_turns(faster).steering_angle * (2.0 * speed)
+    slope = (there - here) / ((2.0 * speed) ** 2 - speed**2)
+    return here - slope * speed**2, slope
 
 
 def static_gains(model: LinearModel) -> dict[str, float]:

@@ -1,18 +1,17 @@
 """A measure of many vehicles that differ in a few numbers: what a sweep computes, chunk by chunk."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from yawdamp_ros.analysis.eigenmodes import ComplexArray
+from yawdamp_ros.analysis.eigenmodes import ComplexArray, damping_ratios
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.measures import MEASURES
-from yawdamp_ros.dynamics import consistent, linear_model
-from yawdamp_ros.dynamics.errors import DynamicsError
+from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.vehicle import Vehicle, load_stack, unstacked
+from yawdamp_ros.vehicle import Vehicle, load_stack
 
 STABILITY = "stability"
 STUDIED = (STABILITY, *MEASURES)
@@ -21,8 +20,8 @@ STUDIED = (STABILITY, *MEASURES)
 LARGEST_REAL_PART = "largest_real_part"
 """Column of the largest real part of the eigenvalues, in 1/s; below 0 the vehicle is stable."""
 
-_LEAST_DAMPING = "least_damping_ratio"
-_STACKED_CHUNK, _SINGLE_CHUNK = 25_000, 50
+_EIGENVALUES = (STABILITY, "least_damping_ratio")
+_LARGE_CHUNK, _CHUNK = 25_000, 500
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,7 @@ class Study:
     @property
     def chunk(self) -> int:
         """Points that are worth a message to another process."""
-        return _STACKED_CHUNK if self.measure in {STABILITY, _LEAST_DAMPING} else _SINGLE_CHUNK
+        return _LARGE_CHUNK if self.measure in _EIGENVALUES else _CHUNK
 
     def check(self, points: FloatArray) -> None:
         """Refuse points that are no valid vehicles, before any work is done.
@@ -95,7 +94,7 @@ class Study:
         VehicleError, DynamicsError
             If any point is no valid vehicle, or there is no such model of it.
         """
-        return self._eigenvalues(self._stack(points), len(points))
+        return _eigenvalues(self._model(self._stack(points), len(points), None))
 
     def evaluate(self, points: FloatArray) -> FloatArray:
         """Answers at many points.
@@ -115,41 +114,44 @@ class Study:
             As `eigenvalues`.
         """
         stack = self._stack(points)
-        eigenvalues = self._eigenvalues(stack, len(points))
+        eigenvalues = _eigenvalues(self._model(stack, len(points), None))
         found = [eigenvalues.real.max(axis=1)]
-        if self.measure == _LEAST_DAMPING:
-            found.append((-eigenvalues.real / np.abs(eigenvalues)).min(axis=1))
+        if self.measure in _EIGENVALUES[1:]:
+            found.append(damping_ratios(eigenvalues).min(axis=1))
         elif self.measure != STABILITY:
-            found.append(np.array([self._measured(unstacked(stack, i)) for i in range(len(points))]))
+            measure = MEASURES[self.measure]
+            speed = None if self._speed_given else measure.speed
+            found.append(measure.answers(self._model(stack, len(points), speed)).values)
         return np.column_stack(found)
+
+    @property
+    def _speed_given(self) -> bool:
+        return any("speed" in keys for keys in self.keys) or any(
+            override.startswith("speed=") for override in self.overrides
+        )
 
     def _stack(self, points: FloatArray) -> Vehicle:
         values = {key: column for keys, column in zip(self.keys, points.T, strict=True) for key in keys}
         return load_stack(self.text, self.source, self.overrides, values)
 
-    def _eigenvalues(self, stack: Vehicle, count: int) -> ComplexArray:
-        if np.any(np.asarray(stack.speed) <= 0.0):
-            message = "speed: expected speeds in m/s above 0"
-            raise DynamicsError(message)
-        if self.model == "consistent":
-            matrices, _ = consistent.state_space(stack, stack.speed)
-        else:
-            models = (linear_model(unstacked(stack, i), model=self.model) for i in range(count))
-            matrices = np.array([model.state_matrix for model in models])
-        found = np.linalg.eigvals(np.broadcast_to(matrices, (count, *matrices.shape[-2:])))
-        return np.asarray(found, dtype=np.complex128)
+    def _model(self, stack: Vehicle, count: int, speed: float | None) -> LinearModel:
+        """Linear model of a stack, of each of its vehicles even where they are all alike."""
+        model = linear_model(stack, speed, self.model)
 
-    def _measured(self, vehicle: Vehicle) -> float:
-        measure = MEASURES[self.measure]
-        speed_given = any("speed" in keys for keys in self.keys) or any(
-            override.startswith("speed=") for override in self.overrides
+        def each(part: FloatArray, axes: int) -> FloatArray:
+            return np.broadcast_to(part, (count, *part.shape[-axes:]))
+
+        return replace(
+            model,
+            state_matrix=each(model.state_matrix, 2),
+            input_matrix=each(model.input_matrix, 1),
+            output_matrix=each(model.output_matrix, 2),
+            feedthrough=each(model.feedthrough, 1),
         )
-        speed = vehicle.speed if speed_given else measure.speed or vehicle.speed
-        try:
-            value = measure.value(linear_model(vehicle, speed, self.model))
-        except AnalysisError:
-            return np.nan
-        return np.nan if value is None else value
+
+
+def _eigenvalues(model: LinearModel) -> ComplexArray:
+    return np.asarray(np.linalg.eigvals(model.state_matrix), dtype=np.complex128)
 
 
 def evaluate_all(

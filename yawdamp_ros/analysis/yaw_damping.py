@@ -8,7 +8,7 @@ import numpy.typing as npt
 from scipy.linalg import expm
 
 from yawdamp_ros.analysis.answers import Answers, stack_of
-from yawdamp_ros.analysis.eigenmodes import ComplexArray
+from yawdamp_ros.analysis.eigenmodes import ComplexArray, damping_ratios
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.motion import free_motion
 from yawdamp_ros.dynamics import LinearModel
@@ -57,8 +57,7 @@ class ModesOfDecay(NamedTuple):
     @property
     def damping_ratios(self) -> FloatArray:
         """``-Re / abs`` of the eigenvalues, shape (k, m)."""
-        size = np.abs(self.eigenvalues)
-        return -self.eigenvalues.real / np.where(size > 0.0, size, 1.0)
+        return damping_ratios(self.eigenvalues)
 
     @property
     def swinging(self) -> BoolArray:
@@ -234,7 +233,12 @@ def pulse_decay(model: LinearModel) -> FloatArray:
     slowest = growing if growing > 0.0 else float(np.abs(eigenvalues.real).min())
     slowest = max(slowest, _DECAY_TIME / (step * _MOST_STEPS))
     count = math.ceil(_DECAY_TIME / (slowest * step)) + 1
-    return free_motion(model.state_matrix, start, step, count)[:, len(model.vehicle.units)]
+    last_yaw_rate = np.eye(size)[len(model.vehicle.units)]
+    rows = last_yaw_rate[np.newaxis, np.newaxis]
+    shown: FloatArray = free_motion(model.state_matrix[np.newaxis], start[np.newaxis], step, count, rows)[
+        0, 0
+    ]
+    return shown
 
 
 def _extrema(values: FloatArray) -> FloatArray:

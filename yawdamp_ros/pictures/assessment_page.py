@@ -15,7 +15,7 @@ from yawdamp_ros.analysis import (
     modes,
     pulse_decay,
     run_lane_change,
-    steer_axle,
+    steer_axle_position,
 )
 from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH
 from yawdamp_ros.dynamics import LinearModel, linear_model
@@ -130,7 +130,7 @@ def _lane_change(vehicle: Vehicle, model: str, speed: float) -> dict[str, object
         return None
     last = len(vehicle.units) - 1
     paths = {
-        "steer": axle_path(run, 0, steer_axle(vehicle).position),
+        "steer": axle_path(run, 0, steer_axle_position(vehicle)),
         "last": axle_path(run, last, min(axle.position for axle in vehicle.units[-1].axles)),
     }
     return {
