@@ -1,5 +1,7 @@
 """What runs within one process, timed by pyperf, which repeats each in several processes."""
 
+import itertools
+
 import control
 import numpy as np
 import pyperf
@@ -50,6 +52,13 @@ def step(runner: pyperf.Runner) -> None:
     stepper.steer(0.03)
     runner.bench_func("step", lambda: stepper.advance(10), inner_loops=10)
     runner.bench_func("sample", stepper.sample)
+    # Speeds that it never had before.
+    speeds = itertools.count(10.0, 1e-6)
+
+    def change() -> None:
+        stepper.change_speed(next(speeds))
+
+    runner.bench_func("change of speed", change)
 
 
 def eigenvalues(runner: pyperf.Runner) -> None:

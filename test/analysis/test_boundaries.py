@@ -19,7 +19,7 @@ from yawdamp_ros.analysis import (
 from yawdamp_ros.analysis.speed_brackets import speed_brackets
 from yawdamp_ros.analysis.steady_state import steady_steering
 from yawdamp_ros.dynamics import LinearModel, linear_model
-from yawdamp_ros.dynamics.speed_family import StateMatrices
+from yawdamp_ros.dynamics.speed_family import SpeedParts, StateMatrices
 from yawdamp_ros.vehicle import load_vehicle
 
 SPEED = 80 / 3.6
@@ -154,7 +154,7 @@ def test_two_changes_within_a_step_of_the_scan_are_seen() -> None:
     """An eigenvalue that is positive from 19.97 to 20.03 m/s alone."""
     # Re = 1 - (u - 20)^2 / 0.03^2 is no sum of 1, u and 1/u; near 20 m/s u/2 + 200/u is a parabola.
     slack = 0.5 * 20.03 + 200.0 / 20.03
-    matrices = StateMatrices(*(np.full((1, 1, 1), part) for part in (slack, -200.0, -0.5)))
+    matrices = StateMatrices(SpeedParts(*(np.full((1, 1, 1), part) for part in (slack, -200.0, -0.5))))
     found = speed_brackets(matrices)
     assert found.refined(matrices) == pytest.approx([400.0 / 20.03, 20.03], abs=1e-9)
     assert found.unstable_above.tolist() == [True, False]

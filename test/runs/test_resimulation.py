@@ -214,7 +214,7 @@ def test_a_run_that_other_kernels_computed_is_not_promised_bits_and_agrees(
     status, found = verdict(recorded, capsys)
     assert (status, found["bit_identical"], found["difference"]) == (0, False, None)
     assert found["promise"] == "1e-9 of the motion"
-    assert "kernels; this is" in str(found["reason"])
+    assert "kernels, numerics" in str(found["reason"])
 
 
 def test_what_is_no_run_is_refused(offline: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,7 +11,8 @@ from scipy.linalg import expm
 
 from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
-from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT, exponential, propagator
+from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT
+from yawdamp_ros.stepping.propagators import exponential, propagator
 from yawdamp_ros.vehicle import Vehicle
 
 
@@ -58,3 +59,25 @@ for units in (8, 31, 32, 33, 40, 44, 46, 47, 48, 49, 50):
         )
         printed.add(done.stdout)
     assert len(printed) == 1
+
+
+@given(vehicles(1, 4), st.sampled_from([1e-4, 0.001, 0.01, 0.1]))
+def test_block_is_the_powers_of_scipys_exponential(vehicle: Vehicle, step_size: float) -> None:
+    model = linear_model(vehicle)
+    size = len(model.state_matrix)
+    rates = np.zeros((size + 2, size + 2))
+    rates[:size, :size], rates[:size, -1], rates[size, 1] = model.state_matrix, model.input_matrix, 1.0
+    step = expm(rates * step_size)
+    found = propagator(model, step_size).steps
+    block = found.shape[1] - size - 1
+    steps = found.reshape(block, size + 1, -1)
+    state = np.zeros(size + 2)
+    state[:size] = np.linspace(-1.0, 1.0, size)
+    angles = np.linspace(0.1, -0.3, block + 1)
+    expected = []
+    for angle in angles[:-1]:
+        state[-1] = angle
+        state = step @ state
+        expected.append(state[:-1])
+    start = np.concatenate([np.linspace(-1.0, 1.0, size), angles])
+    np.testing.assert_allclose(steps @ start, expected, atol=1e-11 * np.abs(expected).max())

@@ -11,6 +11,7 @@ from scipy.linalg import expm
 
 from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
+from yawdamp_ros.dynamics import DynamicsError
 from yawdamp_ros.stepping import Sample, Stepper
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle
 
@@ -298,3 +299,37 @@ def test_velocity_of_every_unit_is_the_rate_of_its_pose_at_any_articulation(arti
     assert now.velocity[0] == pytest.approx(3.0 + 0.3j, abs=1e-3)
     if abs(articulation) == 0.9:
         assert abs(now.velocity[-1] - (3.0 + 1j * now.lateral_velocity[-1])) > 1.0
+
+
+@pytest.mark.parametrize("vehicle, model", [("interlink", "published"), ("a_double", "consistent")])
+def test_run_at_a_changed_speed_has_the_bits_of_one_that_began_at_it(vehicle: str, model: str) -> None:
+    known, generator = load_vehicle(vehicle), np.random.default_rng(3)
+    changed = Stepper(linear_model(known, 20.0, model), 0.001)
+    for speed in generator.uniform(1.0, 60.0, 20).tolist():
+        changed.change_speed(speed)
+        changed.reset()
+        begun = Stepper(linear_model(known, speed, model), 0.001)
+        for stepper in (changed, begun):
+            stepper.steer(0.03)
+        one, other = changed.run([0.01] * 70, 7), begun.run([0.01] * 70, 7)
+        for field in ("yaw_rate", "lateral_acceleration", "lateral_velocity", "articulation"):
+            np.testing.assert_array_equal(getattr(one, field), getattr(other, field))
+        assert changed.linearise().speed == changed.speed == speed
+
+
+def test_change_of_speed_assembles_no_equations(monkeypatch: pytest.MonkeyPatch) -> None:
+    stepper = Stepper(linear_model(load_vehicle("interlink")), 0.001)
+    monkeypatch.setattr("yawdamp_ros.stepping.propagators.linear_model", None)
+    monkeypatch.setattr("yawdamp_ros.stepping.stepper.linear_model", None)
+    for speed in range(5, 60):
+        stepper.change_speed(float(speed))
+        stepper.advance(10)
+        assert stepper.speed == speed
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.001, -3.0, math.nan, math.inf])
+def test_speed_that_no_model_has_is_refused_and_changes_nothing(speed: float) -> None:
+    stepper = Stepper(linear_model(load_vehicle("interlink"), 20.0), 0.001)
+    with pytest.raises(DynamicsError, match=r"speed: .*: expected a speed of at least 0.01 m/s"):
+        stepper.change_speed(speed)
+    assert stepper.speed == 20.0

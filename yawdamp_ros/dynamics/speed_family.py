@@ -1,25 +1,26 @@
 """A model at any speed: its matrices are ``constant + by_inverse / u + by_speed u``."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.dynamics.linear_model import MODELS
 from yawdamp_ros.vehicle import Vehicle
 
-_NODES = np.array([1.0, 8.0, 64.0])
-"""Speeds in m/s from which the parts are found: at each another part is large."""
+_BASE = 8.0
+"""In m/s. Parts are found from the matrices at this speed, twice and four times of it."""
 
 
-@dataclass(frozen=True)
-class StateMatrices:
-    """State matrices of a stack of vehicles, at any speed.
+class SpeedParts(NamedTuple):
+    """Numbers that depend on the speed: a slip angle is a velocity over it, what turns is accelerated by it.
 
     Attributes
     ----------
-    constant, by_inverse, by_speed : ndarray, shape (k, m, m)
-        A slip angle is a velocity over the speed, and what turns has an acceleration by the speed.
+    constant, by_inverse, by_speed : ndarray
+        Of one shape.
     """
 
     constant: FloatArray
@@ -27,22 +28,46 @@ class StateMatrices:
     by_speed: FloatArray
 
     @classmethod
+    def of(cls, values: Callable[[float], FloatArray]) -> "SpeedParts":
+        """Find the parts of numbers that are a function of the speed in m/s.
+
+        Of numbers with one part only it is exact: the speeds are powers of two.
+        """
+        low, middle, high = (values(_BASE * factor) for factor in (1.0, 2.0, 4.0))
+        first, second = middle - low, high - middle
+        speed = (2.0 * second - first) / 3.0
+        inverse = 2.0 * (speed - first)
+        return cls(low - inverse - speed, inverse * _BASE, speed / _BASE)
+
+    def at(self, speed: float) -> FloatArray:
+        """Return the numbers at a speed in m/s."""
+        return self.constant + self.by_inverse * (1.0 / speed) + self.by_speed * speed
+
+
+class StateMatrices(NamedTuple):
+    """State matrices of a stack of vehicles, at any speed.
+
+    Attributes
+    ----------
+    parts : SpeedParts
+        Of shape (k, m, m).
+    """
+
+    parts: SpeedParts
+
+    @classmethod
     def of(cls, vehicle: Vehicle, model: str, count: int) -> "StateMatrices":
-        """Find the parts of a stack of a number of vehicles, in one of `MODELS`."""
-        at_nodes = [MODELS[model](vehicle, speed)[0] for speed in _NODES.tolist()]
-        parts = np.linalg.inv(np.column_stack([np.ones(3), 1.0 / _NODES, _NODES]))
-        shape = (count, *at_nodes[0].shape[-2:])
-        constant, by_inverse, by_speed = (
-            np.broadcast_to(sum(share * matrix for share, matrix in zip(row, at_nodes, strict=True)), shape)
-            for row in parts
-        )
-        return cls(constant, by_inverse, by_speed)
+        """Find those of a stack of a number of vehicles, in one of `MODELS`."""
+        parts = SpeedParts.of(lambda speed: MODELS[model](vehicle, speed)[0])
+        shape = (count, *parts.constant.shape[-2:])
+        return cls(SpeedParts._make(np.broadcast_to(part, shape) for part in parts))
 
     def at(self, speed: FloatArray | float) -> FloatArray:
         """Matrices at one speed in m/s, or at one of each, shape (k, m, m)."""
         each = np.asarray(speed, dtype=np.float64)[..., np.newaxis, np.newaxis]
-        return self.constant + self.by_inverse / each + self.by_speed * each
+        constant, by_inverse, by_speed = self.parts
+        return constant + by_inverse / each + by_speed * each
 
-    def of_vehicles(self, indices: "np.typing.NDArray[np.intp]") -> "StateMatrices":
+    def of_vehicles(self, indices: npt.NDArray[np.intp]) -> "StateMatrices":
         """Those of some of the vehicles, any of them more than once."""
-        return StateMatrices(self.constant[indices], self.by_inverse[indices], self.by_speed[indices])
+        return StateMatrices(SpeedParts._make(part[indices] for part in self.parts))

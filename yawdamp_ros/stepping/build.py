@@ -4,6 +4,9 @@ import platform
 
 import numpy as np
 
+NUMERICS = 2
+"""Raised whenever this package computes the same in another way, so that last bits change."""
+
 
 def build_of_numerics() -> str:
     """Machine, NumPy, and the BLAS with the kernels that it has chosen, in a line.
@@ -16,7 +19,7 @@ def build_of_numerics() -> str:
     extensions = configuration["SIMD Extensions"].get("found", [])
     return (
         f"{platform.machine()} ({' '.join(extensions)}), numpy {np.__version__}, "
-        f"{blas['name']} {blas['version']}, {_kernels()}"
+        f"{blas['name']} {blas['version']}, {_kernels()}, numerics {NUMERICS}"
     )
 
 

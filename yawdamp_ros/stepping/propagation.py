@@ -1,20 +1,14 @@
-"""The zero-order hold by matrix exponential, many steps at once."""
+"""Many steps of the zero-order hold at once."""
 
-import math
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
-LONGEST_BLOCK = 32
-"""Most steps that are computed from one start."""
 LARGEST_PRODUCT = 9216
 """Elements from which OpenBLAS splits a product with a vector over threads, on whose number bits depend."""
-LARGEST_MATRIX_PRODUCT = 262144
-"""Multiplications up to which it does not split a product of matrices."""
 
 
 class Propagator(NamedTuple):
@@ -22,7 +16,8 @@ class Propagator(NamedTuple):
 
     Attributes
     ----------
-    model : LinearModel
+    speed : float
+        In m/s.
     steps : ndarray, shape (b (2 n + 1), 2 n + b + 1)
         For each of b steps, the state and the yaw of the lead unit after it, by the state at the start of the
         block and the steer angles at its b + 1 instants; an angle that comes later counts 0.
@@ -30,7 +25,7 @@ class Propagator(NamedTuple):
         The model's outputs by state and steer angle.
     """
 
-    model: LinearModel
+    speed: float
     steps: FloatArray
     outputs: FloatArray
 
@@ -60,7 +55,7 @@ class Propagation:
 
     def __init__(self, propagator: Propagator) -> None:
         self.propagator = propagator
-        size = len(propagator.model.state_matrix)
+        size = propagator.outputs.shape[1] - 1
         self._start = np.zeros(propagator.steps.shape[1])
         self._state, self._angles = self._start[:size], self._start[size:]
         self._block = len(self._angles) - 1
@@ -155,76 +150,8 @@ class Propagation:
         return [(block, turned) for turned in products[:-1, -1].tolist()]
 
 
-def propagator(model: LinearModel, step_size: float) -> Propagator:
-    """Matrices of a model for steps of a size in s."""
-    outputs = np.column_stack([model.output_matrix, model.feedthrough])
-    return Propagator(model, _steps(model, step_size), np.asfortranarray(outputs))
-
-
 def outputs_of(known: Propagator, states_and_angle: FloatArray) -> FloatArray:
     """Outputs of the model, shape (..., 4 n - 1), by states and steer angles, shape (..., 2 n + 1)."""
     # One small product for each instant: of many at once, the bits would depend on how many.
     outputs: FloatArray = np.matmul(known.outputs, states_and_angle[..., np.newaxis])[..., 0]
     return outputs
-
-
-def _steps(model: LinearModel, step_size: float) -> FloatArray:
-    """See `Propagator.steps`."""
-    size = len(model.state_matrix)
-    rates = np.zeros((size + 2, size + 2))
-    rates[:size, :size] = model.state_matrix
-    rates[:size, -1] = model.input_matrix
-    rates[size, 1] = 1.0  # yaw, by the yaw rate of the lead unit
-    step = exponential(rates * step_size)
-    transition, by_angle = step[:-1, :-1], step[:-1, -1]
-    block = _block_length(size)
-    steps = np.zeros((block, size + 1, size + block + 1))
-    before = np.eye(size + 1, size + block + 1)
-    before[-1, size] = 0.0
-    for index, after in enumerate(steps):
-        after[...] = _matrix_product(transition, before)
-        after[:, size + index] = by_angle
-        before = after
-    return steps.reshape(-1, size + block + 1)
-
-
-def exponential(matrix: FloatArray) -> FloatArray:
-    """Matrix exponential by Taylor's series, scaled and squared.
-
-    To rounding as good as `scipy.linalg.expm` for the matrices of a step, which are small; importing that
-    would take longer than all else that a node does to start.
-
-    Parameters
-    ----------
-    matrix : ndarray, shape (n, n)
-
-    Returns
-    -------
-    ndarray, shape (n, n)
-    """
-    norm = float(np.abs(matrix).sum(axis=0).max())
-    squarings = max(math.frexp(norm)[1] + 1, 0)
-    scaled = matrix * 0.5**squarings
-    term = np.eye(len(matrix))
-    result = term.copy()
-    # Of a norm of at most a half the 17th power over 17! is 2e-20.
-    for power in range(1, 17):
-        term = _matrix_product(term, scaled) / power
-        result += term
-    for _ in range(squarings):
-        result = _matrix_product(result, result)
-    return result
-
-
-def _matrix_product(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Product whose bits do not depend on how many threads there are."""
-    columns = max(LARGEST_MATRIX_PRODUCT // left.size, 1)
-    if right.shape[1] <= columns:
-        return left @ right
-    parts = [left @ right[:, begin : begin + columns] for begin in range(0, right.shape[1], columns)]
-    return np.hstack(parts)
-
-
-def _block_length(size: int) -> int:
-    fitting = [b for b in range(1, LONGEST_BLOCK + 1) if b * (size + 1) * (size + b + 1) < LARGEST_PRODUCT]
-    return max(fitting, default=1)

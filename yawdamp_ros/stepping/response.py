@@ -9,7 +9,8 @@ from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.motion import Motion
-from yawdamp_ros.stepping.propagation import Propagation, outputs_of, propagator
+from yawdamp_ros.stepping.propagation import Propagation, outputs_of
+from yawdamp_ros.stepping.propagators import propagator
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.stepper import Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid

@@ -14,12 +14,13 @@ from yawdamp_ros.dynamics.kinematics import (
     coupled_positions,
     coupled_velocities,
 )
-from yawdamp_ros.stepping.propagation import Propagation, Propagator, outputs_of, propagator
+from yawdamp_ros.stepping.propagation import Propagation, outputs_of
+from yawdamp_ros.stepping.propagators import Propagators
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.yaw import Yaw, YawParts
 
-KNOWN_SPEEDS = 128
-"""Speeds whose matrices are kept."""
+KNOWN_SPEEDS = 4
+"""Speeds whose matrices are kept: more of them would push each other out of the processor's cache."""
 
 
 class _Instants(NamedTuple):
@@ -58,8 +59,9 @@ class Stepper:
             AppliedInput(0, "steering", 0.0),
         ]
         # A measured speed comes back to values it had: their matrices are computed once.
-        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(self._propagator)
-        self._motion = Propagation(propagator(model, step_size))
+        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(Propagators(model, step_size).at)
+        self._model = model
+        self._motion = Propagation(self._at_speed(model.speed))
         self._yaw = Yaw()  # of the lead unit at the start of the block
         self._position = 0.0j
         self._velocity = complex(model.speed)
@@ -67,7 +69,7 @@ class Stepper:
     @property
     def speed(self) -> float:
         """Longitudinal speed of now, m/s."""
-        return self._motion.propagator.model.speed
+        return self._motion.propagator.speed
 
     @property
     def state(self) -> FloatArray:
@@ -139,7 +141,9 @@ class Stepper:
 
     def linearise(self) -> LinearModel:
         """Linear model at the speed of now, which is all there is to this motion."""
-        return self._motion.propagator.model
+        if self._model.speed != self.speed:
+            self._model = linear_model(self.vehicle, self.speed, self._model_name)
+        return self._model
 
     def apply(self, applied: AppliedInput) -> None:
         """Let an input act from this instant on."""
@@ -284,12 +288,14 @@ class Stepper:
             self._inputs.pop()
         self._inputs.append(AppliedInput(self.step, name, value))
 
-    def _propagator(self, speed: float) -> Propagator:
-        return propagator(linear_model(self.vehicle, speed, self._model_name), self.step_size)
-
     def _set_ground_velocity(self) -> None:
-        yaw = np.array([self._motion.turned + self._yaw.direction])
-        self._velocity = complex(_ground_velocity(self.speed, self.state[:1], yaw)[0])
+        # The bits of `_ground_velocity`, of one.
+        heading = complex(np.exp(complex(0.0, self._motion.turned + self._yaw.direction)))
+        sideways = float(self._motion.state[0])
+        self._velocity = complex(
+            heading.real * self.speed - sideways * heading.imag,
+            heading.imag * self.speed + sideways * heading.real,
+        )
 
 
 def _ground_velocity(speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:

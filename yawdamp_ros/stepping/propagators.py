@@ -1,0 +1,163 @@
+"""The matrices of a step at any speed: the zero-order hold by matrix exponential."""
+
+import math
+
+import numpy as np
+
+from yawdamp_ros.dynamics import LOWEST_SPEED, LinearModel, linear_model
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.dynamics.speed_family import SpeedParts
+from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT, Propagator
+
+LONGEST_BLOCK = 32
+"""Most steps that are computed from one start."""
+LARGEST_MATRIX_PRODUCT = 262144
+"""Multiplications up to which OpenBLAS does not split a product of matrices over threads."""
+_TAYLOR = np.array([1.0 / math.factorial(power) for power in range(16)]).reshape(4, 4)
+_OF_IDENTITY, _OF_POWERS = _TAYLOR[:, :1].copy(), _TAYLOR[:, 1:].copy()
+"""Of a norm of at most a half the 16th power over 16! is 7e-19."""
+
+
+class Propagators:
+    """A vehicle in one model, to be stepped at any speed.
+
+    What depends on the speed is a sum of three parts, so that a speed takes a few products of small matrices.
+
+    Parameters
+    ----------
+    model : LinearModel
+        At any speed.
+    step_size : float
+        In s.
+    """
+
+    def __init__(self, model: LinearModel, step_size: float) -> None:
+        self._vehicle, self._model, self._step_size = model.vehicle, model.model, step_size
+        self._size = len(model.state_matrix)
+        self._block = _block_length(self._size)
+        self._parts = SpeedParts.of(self._numbers)
+        self._norms = [float(np.abs(self._rates(part)).sum(axis=0).max()) for part in self._parts]
+
+    def at(self, speed: float) -> Propagator:
+        """Matrices at a speed in m/s.
+
+        Raises
+        ------
+        DynamicsError
+            As `linear_model`.
+        """
+        if not LOWEST_SPEED <= speed < math.inf:
+            linear_model(self._vehicle, speed, self._model)  # which says what is wrong
+        numbers = self._parts.at(speed)
+        constant, by_inverse, by_speed = self._norms
+        step = exponential(self._rates(numbers), constant + by_inverse / speed + by_speed * speed)
+        if not math.isfinite(step[0, 0]):
+            linear_model(self._vehicle, speed, self._model)
+        width = self._size + 1
+        outputs = numbers[(self._size + 2) ** 2 :].reshape(-1, width)
+        return Propagator(speed, _steps(step, self._size, self._block), np.asfortranarray(outputs))
+
+    def _numbers(self, speed: float) -> FloatArray:
+        """Rates over a step of states, yaw and steer angle, and outputs, in a row."""
+        model = linear_model(self._vehicle, speed, self._model)
+        rates = np.zeros((self._size + 2, self._size + 2))
+        rates[: self._size, : self._size] = model.state_matrix
+        rates[: self._size, -1] = model.input_matrix
+        rates[self._size, 1] = 1.0  # yaw, by the yaw rate of the lead unit
+        rates *= self._step_size
+        outputs = np.column_stack([model.output_matrix, model.feedthrough])
+        return np.concatenate([rates.reshape(-1), outputs.reshape(-1)])
+
+    def _rates(self, numbers: FloatArray) -> FloatArray:
+        width = self._size + 2
+        return numbers[: width * width].reshape(width, width)
+
+
+def propagator(model: LinearModel, step_size: float) -> Propagator:
+    """Matrices of a model for steps of a size in s, as `Propagators` has them."""
+    return Propagators(model, step_size).at(model.speed)
+
+
+def exponential(matrix: FloatArray, norm: float | None = None) -> FloatArray:
+    """Matrix exponential by Taylor's series, scaled and squared.
+
+    To rounding as good as `scipy.linalg.expm` for the matrices of a step, which are small; importing that
+    would take longer than all else that a node does to start.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+    norm : float, optional
+        A bound of its column sums.
+
+    Returns
+    -------
+    ndarray, shape (n, n)
+    """
+    size = len(matrix)
+    bound = float(np.abs(matrix).sum(axis=0).max()) if norm is None else norm
+    squarings = max(math.frexp(bound)[1] + 1, 0) if math.isfinite(bound) else 0
+    powers = np.empty((3, size, size))
+    first, second, third = powers
+    np.multiply(matrix, 0.5**squarings, out=first)
+    _multiply(first, first, second)
+    _multiply(second, first, third)
+    fourth = np.empty_like(first)
+    _multiply(second, second, fourth)
+    # Paterson and Stockmeyer: a polynomial in the fourth power, its coefficients polynomials below it.
+    sums = np.empty((4, size * size))
+    _multiply(_OF_POWERS, powers.reshape(3, -1), sums)
+    sums[:, :: size + 1] += _OF_IDENTITY
+    fourths = sums.reshape(4, size, size)
+    result: FloatArray = fourths[3]
+    other: FloatArray = first
+    for below in (2, 1, 0):
+        _multiply(result, fourth, other)
+        other += fourths[below]
+        result, other = other, result
+    for _ in range(squarings):
+        _multiply(result, result, other)
+        result, other = other, result
+    return result
+
+
+def _steps(step: FloatArray, size: int, block: int) -> FloatArray:
+    """See `Propagator.steps`."""
+    width = size + 1
+    powers = np.empty((block * width, width))
+    powers[:width] = step[:-1, :-1]
+    done = 1
+    while done < block:
+        more = min(done, block - done)
+        last = powers[(done - 1) * width : done * width]
+        _multiply(powers[: more * width], last, powers[done * width : (done + more) * width])
+        done += more
+    # What an angle does to each state: at column `block` after one step, ahead of it after more, else nil.
+    effects = np.zeros((width, 2 * block + 1))
+    by_angle = np.ascontiguousarray(step[:-1, -1])
+    effects[:, block] = by_angle
+    effects[:, block - 1 : 0 : -1] = powers[:-width].dot(by_angle).reshape(-1, width).T
+    steps = np.empty((block, width, width + block))
+    steps[:, :, :size] = powers.reshape(block, width, width)[:, :, :size]
+    of_state, later = effects.strides
+    # Row j and angle i: the effect after j - i steps.
+    steps[:, :, size:] = np.ndarray(
+        (block, width, block + 1), effects.dtype, effects, block * later, (-later, of_state, later)
+    )
+    return steps.reshape(-1, width + block)
+
+
+def _multiply(left: FloatArray, right: FloatArray, product: FloatArray) -> None:
+    """Put the product of two matrices into another, in bits that no number of threads changes."""
+    columns = LARGEST_MATRIX_PRODUCT // left.size
+    if right.shape[1] <= columns:
+        left.dot(right, product)
+        return
+    for begin in range(0, right.shape[1], max(columns, 1)):
+        part = slice(begin, begin + max(columns, 1))
+        product[:, part] = left @ right[:, part]
+
+
+def _block_length(size: int) -> int:
+    fitting = [b for b in range(1, LONGEST_BLOCK + 1) if b * (size + 1) * (size + b + 1) < LARGEST_PRODUCT]
+    return max(fitting, default=1)
