@@ -284,6 +284,13 @@ def test_time_that_goes_back_is_refused(tmp_path: Path) -> None:
             },
             "a.mcap: cannot be read: No such file",
         ),
+        (
+            {
+                "metadata.yaml": "rosbag2_bagfile_information: {storage_identifier: mcap, "
+                "compression_format: zstd, compression_mode: MESSAGE, relative_file_paths: [a.mcap]}\n"
+            },
+            "metadata.yaml: compression_mode MESSAGE: expected messages that are not compressed",
+        ),
     ],
 )
 def test_a_directory_that_is_no_recording_is_refused(
@@ -294,3 +301,14 @@ def test_a_directory_that_is_no_recording_is_refused(
     with pytest.raises(LogError) as caught:
         read_steering_mcap(tmp_path)
     assert message in str(caught.value)
+
+
+def test_a_file_that_is_listed_twice_plays_once(tmp_path: Path) -> None:
+    with (tmp_path / "a.mcap").open("wb") as file, Writer(file) as writer:
+        schema = writer.register_msgdef("std_msgs/msg/Float64", "float64 data\n")
+        for index in range(3):
+            writer.write_message("/steering", schema, {"data": 0.1 * index}, index, index)
+    (tmp_path / "metadata.yaml").write_text(
+        "rosbag2_bagfile_information: {storage_identifier: mcap, relative_file_paths: [a.mcap, ./a.mcap]}\n"
+    )
+    assert len(read_steering_mcap(tmp_path).angles) == 3

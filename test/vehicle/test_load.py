@@ -146,3 +146,37 @@ def test_vehicle_files_name_the_schema_that_editors_read() -> None:
         first = vehicle_text(name).splitlines()[0]
         schema = first.partition("$schema=")[2]
         assert (share_directory() / "config" / "vehicles" / schema).resolve().is_file()
+
+
+@pytest.mark.parametrize(
+    "name, said",
+    [
+        ("trailer_1_hitch", "units.2.name: 'trailer_1_hitch': that is the frame of the hitch of trailer_1"),
+        ("odom", "units.2.name: 'odom': that is the frame of the ground"),
+        ("truck_steered_axle", "that is the frame of the steered axle of truck"),
+    ],
+)
+def test_names_of_other_frames_are_refused(name: str, said: str) -> None:
+    with pytest.raises(VehicleError, match=said):
+        load_vehicle("interlink", [f"units.2.name={name}"])
+
+
+@pytest.mark.parametrize("text", ["1: 2", "units: [{2: 3}]", "? [1]\n: 2", "null: 1"])
+def test_keys_that_are_no_names_are_refused(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(VehicleError, match=r"unknown key; expected a name|not valid YAML"):
+        load_vehicle(path)
+
+
+@pytest.mark.parametrize("bracket", ["[", "{a: ", "- "])
+def test_deep_nesting_is_refused(bracket: str, tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text(bracket * 20_000, encoding="utf-8")
+    with pytest.raises(VehicleError, match="not valid YAML"):
+        load_vehicle(path)
+
+
+def test_indices_are_counted_from_the_front() -> None:
+    with pytest.raises(VehicleError, match=r"units.1.axles.-1.position: -1: expected an index, 0 or more"):
+        load_vehicle("interlink", ["units.1.axles.-1.position=-5"])

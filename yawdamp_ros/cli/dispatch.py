@@ -1,9 +1,11 @@
 """From a command line to the module of its command."""
 
+import errno
 import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib import import_module
+from io import TextIOWrapper
 from types import MappingProxyType
 
 from yawdamp_ros.cli.errors import UsageError
@@ -45,6 +47,7 @@ def run(arguments: Sequence[str]) -> int:
         Exit status: 0, 1 for a negative answer, 2 for wrong use, 130 when interrupted.
     """
     prefix = " ".join([program(), *arguments[:1]])
+    _make_writable()
     try:
         try:
             return _dispatch(arguments)
@@ -58,8 +61,32 @@ def run(arguments: Sequence[str]) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         # The reader of a pipe (head, less) has gone; nothing is wrong, and nothing more can be said.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _give_up_output()
         return 0
+    except MemoryError:
+        print(f"{prefix}: out of memory", file=sys.stderr)
+        return WRONG_USE
+    except OSError as error:
+        if error.filename is not None or error.errno != errno.ENOSPC:
+            raise
+        _give_up_output()
+        print(f"{prefix}: standard output: {error.strerror}", file=sys.stderr)
+        return WRONG_USE
+
+
+def _make_writable() -> None:
+    """Have streams that take every text, nowhere if closed, and escaped where it cannot be encoded."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8"))
+        elif isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _give_up_output() -> None:
+    """Let what is still buffered go nowhere: Python would try once more at its exit, and say so."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _dispatch(arguments: Sequence[str]) -> int:

@@ -1,11 +1,14 @@
 """Options of the commands that read a recorded drive."""
 
 import argparse
+import math
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.drives import Drive
+from yawdamp_ros.errors import one_line
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.drive_formats import format_of, load_drive
 
@@ -75,8 +78,12 @@ def chosen_drive(path: str, options: argparse.Namespace, duration: float | None)
     return _read(path, options, duration, measured=True).steered_by(steering_ratio(options))
 
 
-def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
+def chosen_log(
+    path: str, options: argparse.Namespace, duration: float | None, followed: Sequence[str] = ("steering",)
+) -> SteeringLog:
     """Steering and speed of a drive of a path as they were commanded, cut as the options say.
+
+    What else it holds, besides the channels that are followed, is named on standard error.
 
     Raises
     ------
@@ -86,6 +93,9 @@ def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -
     steering_ratio(options)
     drive = _read(path, options, duration, measured=False)
     steering, speed = drive["steering"], drive.channels.get("speed")
+    others = [f"{name} ({each.source})" for name, each in drive.channels.items() if name not in followed]
+    if others:
+        print(one_line(f"note: {drive.source}: not followed: {', '.join(others)}"), file=sys.stderr)
     return SteeringLog(
         drive.source,
         steering.times.tolist(),
@@ -111,6 +121,7 @@ def _read(path: str, options: argparse.Namespace, duration: float | None, *, mea
         degrees=options.degrees,
         channels=options.channel,
         measured=measured,
+        until=math.inf if duration is None else (options.start_offset or 0.0) + duration,
     )
     if drive.warning:
         print(f"warning: {drive.warning}", file=sys.stderr)

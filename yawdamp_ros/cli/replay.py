@@ -26,7 +26,8 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
         message = f"--rate: {options.rate}: expected a number above 0"
         raise UsageError(message)
     ratio = steering_ratio(options)
-    log = chosen_log(options.log, options, options.duration).divided(ratio)
+    followed = ("steering", "speed")
+    log = chosen_log(options.log, options, options.duration, followed).divided(ratio)
     if options.loop and not log.duration:
         message = "--loop: the log is of one instant"
         raise UsageError(message)

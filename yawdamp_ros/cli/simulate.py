@@ -29,6 +29,7 @@ from yawdamp_ros.cli.options import (
 from yawdamp_ros.cli.peaks_table import print_peaks
 from yawdamp_ros.cli.ros import require_ros
 from yawdamp_ros.logs import SteeringLog
+from yawdamp_ros.logs.room import check_room
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.runs import ResponseCsv, default_run_directory, make_run_directory
 from yawdamp_ros.simulation import (
@@ -46,6 +47,8 @@ from yawdamp_ros.vehicle import Vehicle, VehicleSource, vehicle_text
 
 DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
+DAY = 86400.0
+"""Simulated time beyond which a log's length is not taken for what is wanted [s]."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -59,6 +62,7 @@ def main(arguments: Sequence[str]) -> int:
     if growing := growth(motion.linearise()):
         print(f"warning: {growing}", file=sys.stderr)
     output = Path(options.output or default_run_directory(vehicle.name))
+    check_room(output, grid.samples_in(settings.duration) + 1, len(vehicle.units))
     peaks = Peaks(len(vehicle.units))
     linear_range = LinearRange(vehicle.unit_names, Limits.warning(settings))
     with StopRequest() as stop:
@@ -145,7 +149,11 @@ def _log(options: argparse.Namespace) -> SteeringLog | None:
             message = f"--output: {options.output}: that is the log"
             raise UsageError(message)
         steering_ratio(options)
-        return chosen_log(options.log, options, options.duration)
+        log = chosen_log(options.log, options, options.duration)
+        if options.duration is None and log.duration > DAY:
+            message = f"{options.log}: lasts {log.duration:g} s, more than a day: say --duration"
+            raise UsageError(message)
+        return log
     if unused := log_options(options):
         message = f"--{unused[0].replace('_', '-')}: there is no --log that it could be of"
         raise UsageError(message)

@@ -1,5 +1,6 @@
 """Drives from CSV files with named columns."""
 
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -23,20 +24,20 @@ def read_drive_csv(path: Path, options: DriveOptions) -> Drive:
     LogError
         If the file cannot be read, lacks a column, or holds steering that is none.
     """
-    steering = read_steering_csv(path, options.column, degrees=options.degrees)
+    steering = read_steering_csv(path, options.column, degrees=options.degrees, until=options.until)
     times = np.array(steering.times)
     with csv_reader(path) as rows:
         header = [name.strip() for name in next(rows)]
         name = steering_column(header, options.column, path)
         columns = measured_columns(header, options.wishes, [name], path)
-        values = _values(list(rows), {column.name: header.index(column.name) for column in columns.values()})
+        kept = list(islice((row for row in rows if row), len(times)))
+        values = _values(kept, {column.name: header.index(column.name) for column in columns.values()})
     channels, notes = channels_of(columns, times, values)
     angle = Channel("steering", f"column {name}", times, np.array(steering.angles))
     return Drive(str(path), {"steering": angle, **channels}, steering.start_time, notes, steering.warning)
 
 
-def _values(rows: list[list[str]], places: dict[str, int]) -> dict[str, FloatArray]:
-    kept = [row for row in rows if row]
+def _values(kept: list[list[str]], places: dict[str, int]) -> dict[str, FloatArray]:
     return {
         name: np.array([_number(row[place]) if place < len(row) else np.nan for row in kept])
         for name, place in places.items()

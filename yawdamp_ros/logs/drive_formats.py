@@ -1,5 +1,6 @@
 """The formats that a recorded drive may have, each read by a module of its own."""
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -69,6 +70,7 @@ def load_drive(  # noqa: PLR0913 - each says how one thing is found
     degrees: bool = False,
     channels: Sequence[str] = (),
     measured: bool = True,
+    until: float = math.inf,
 ) -> Drive:
     """Read a recorded drive: CSV, MCAP, rosbag2 (mcap or sqlite3) or MATLAB .mat.
 
@@ -88,6 +90,8 @@ def load_drive(  # noqa: PLR0913 - each says how one thing is found
         ``speed=/can/speed.data:km/h``; a minus flips the sign.
     measured : bool
         Whether to read what was measured, too; else only what acts on a vehicle.
+    until : float
+        Time from the first steering sample on past which nothing need be read [s].
 
     Returns
     -------
@@ -108,7 +112,7 @@ def load_drive(  # noqa: PLR0913 - each says how one thing is found
             degrees, sign = degrees or wish.unit == "deg", wish.sign
     others = tuple(wish for wish in wishes if wish.channel != "steering")
     place = Path(path)
-    drive = format_of(place).read(place, DriveOptions(column, topic, joint, degrees, others, measured))
+    drive = format_of(place).read(place, DriveOptions(column, topic, joint, degrees, others, measured, until))
     if sign > 0.0:
         return drive
     steering = drive["steering"]

@@ -1,5 +1,6 @@
 """How a recorded drive is to be read."""
 
+import math
 from typing import NamedTuple
 
 from yawdamp_ros.logs.channel_names import Wish
@@ -22,6 +23,8 @@ class DriveOptions(NamedTuple):
         Channels taken from a named place.
     measured : bool
         Whether to read what was measured, too; else only what acts on a vehicle.
+    until : float
+        Time from the first steering sample on past which nothing need be read [s].
     """
 
     column: str | None = None
@@ -30,3 +33,4 @@ class DriveOptions(NamedTuple):
     degrees: bool = False
     wishes: tuple[Wish, ...] = ()
     measured: bool = True
+    until: float = math.inf

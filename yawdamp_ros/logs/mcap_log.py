@@ -276,12 +276,19 @@ def _bag_files(directory: Path) -> list[Path]:
             "rosbag2_bagfile_information"
         ]
         storage, names = information["storage_identifier"], information["relative_file_paths"]
-        # The last part of each: a run is read from its own directory.
-        files = [directory / Path(name).name for name in names]
+        mode = str(information.get("compression_mode") or "").upper()
+        # The last part of each: a run is read from its own directory. One that is listed twice plays once.
+        files = list(dict.fromkeys(directory / Path(name).name for name in names))
     except OSError as error:
         raise LogError(metadata, f"cannot be read: {error.strerror}") from error
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise LogError(metadata, "not the metadata of a rosbag2 recording") from error
+    if mode == "MESSAGE":
+        raise LogError(
+            metadata,
+            "compression_mode MESSAGE: expected messages that are not compressed each by itself; "
+            "ros2 bag convert writes them so",
+        )
     if storage != "mcap" or any(file.suffix != ".mcap" for file in files):
         raise LogError(metadata, f"storage {storage!r}: expected uncompressed files of storage 'mcap'")
     if not files:

@@ -5,18 +5,25 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from yawdamp_ros.errors import one_line
 from yawdamp_ros.logs.csv_file import csv_reader
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.steering_log import LARGEST_ANGLE, SteeringLog
+from yawdamp_ros.logs.time_units import SECONDS, time_unit
 
 if TYPE_CHECKING:
     import _csv
 
-TIME_COLUMNS = ("time", "time_s", "t", "timestamp")
-"""Names under which the time in s is looked for, in this order."""
+TIME_COLUMNS = ("time", "time_s", "t", "timestamp", "time_ms", "time_us", "time_ns")
+"""Names under which the time is looked for, in this order."""
+
+ENOUGH = 1000
+"""Samples that the unit of the times is told by."""
 
 
-def read_steering_csv(path: Path, column: str | None = None, *, degrees: bool = False) -> SteeringLog:
+def read_steering_csv(
+    path: Path, column: str | None = None, *, degrees: bool = False, until: float = math.inf
+) -> SteeringLog:
     """Read a steering log from a CSV file.
 
     Parameters
@@ -27,11 +34,14 @@ def read_steering_csv(path: Path, column: str | None = None, *, degrees: bool = 
         Steering column; unless given, the one whose name contains ``steer``.
     degrees : bool
         Whether it holds degrees; a column whose name ends in ``_deg`` always does.
+    until : float
+        Time from the first sample on past which nothing is read [s].
 
     Returns
     -------
     SteeringLog
-        Its first sample at 0 s.
+        Its first sample at 0 s. Times in ms, us or ns are told by the name of their column or by their size,
+        and its warning says so.
 
     Raises
     ------
@@ -40,10 +50,12 @@ def read_steering_csv(path: Path, column: str | None = None, *, degrees: bool = 
         the line.
     """
     with csv_reader(path) as rows:
-        return _parse(rows, path, column, degrees=degrees)
+        return _parse(rows, path, column, degrees=degrees, until=until)
 
 
-def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bool) -> SteeringLog:
+def _parse(
+    reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bool, until: float
+) -> SteeringLog:
     header = [name.strip() for name in next(reader, [])]
     if not header:
         raise LogError(path, "empty; expected a line of column names")
@@ -57,6 +69,7 @@ def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bo
     scale = math.pi / 180.0 if degrees or angle_column.endswith("_deg") else 1.0
     times: list[float] = []
     angles: list[float] = []
+    last = math.inf
     for row in reader:
         if not row:
             continue
@@ -64,6 +77,10 @@ def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bo
         time = _number(row, at_time, time_column, where, path)
         if times and time < times[-1]:
             raise LogError(path, f"{where}: {time_column}: {time}: expected a time not before {times[-1]}")
+        if len(times) == ENOUGH:
+            last = times[0] + until * time_unit(time_column, times).per_second
+        if time > last:
+            break
         times.append(time)
         angle = scale * _number(row, at_angle, angle_column, where, path)
         if abs(angle) > LARGEST_ANGLE:
@@ -74,7 +91,11 @@ def _parse(reader: "_csv.Reader", path: Path, column: str | None, *, degrees: bo
         angles.append(angle)
     if not times:
         raise LogError(path, "no samples after the line of column names")
-    return SteeringLog(str(path), [time - times[0] for time in times], angles)
+    unit = time_unit(time_column, times[:ENOUGH])
+    said = f"{path}: {time_column} is taken to be in {unit.name}" if unit is not SECONDS else ""
+    return SteeringLog(
+        str(path), [(time - times[0]) / unit.per_second for time in times], angles, warning=one_line(said)
+    )
 
 
 def steering_column(header: Sequence[str], column: str | None, path: Path) -> str:

@@ -2,9 +2,9 @@
 
 import errno
 import os
+import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from datetime import UTC, datetime
 from io import BufferedWriter, StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -236,7 +236,7 @@ class RunWriter:
 
 def default_run_directory(vehicle_name: str) -> Path:
     """``runs/<stamp>_<vehicle>`` below the working directory."""
-    stamp = datetime.now(tz=UTC).astimezone().strftime("%Y%m%d-%H%M%S")
+    stamp = time.strftime("%Y%m%d-%H%M%S")  # datetime refuses the offsets of odd time zones
     return Path("runs", f"{stamp}_{vehicle_name}")
 
 

@@ -15,6 +15,7 @@ from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.loads import added_axle_loads, loaded, static_load
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 from yawdamp_ros.vehicle.plausibility import check_plausible, warning_lines
+from yawdamp_ros.vehicle.shape import GROUND_FRAME, hitch_frame, steered_axle_link
 from yawdamp_ros.vehicle.tyres import fancher_stiffness
 
 LONGEST_WHEELBASE = 30.0
@@ -410,6 +411,7 @@ def _check_combination(data: dict[str, Any], source: str) -> None:
     if count > 1:
         last = len(names) - 1 - names[::-1].index(name)
         raise VehicleError(source, f"units.{last}.name", f"{name!r}: expected a name not yet taken")
+    _check_frames(names, source)
     if not any(axle.get("steered", False) for axle in units[0]["axles"]):
         raise VehicleError(
             source, "units.0.axles", "no axle of the lead unit is steered; expected steered: true"
@@ -424,6 +426,19 @@ def _check_static_loads(unit: dict[str, Any], key: str, source: str) -> None:
             f"{key}.axles.{given.index(False)}.static_load",
             "missing: expected on all axles of a unit or none",
         )
+
+
+def _check_frames(names: Sequence[str], source: str) -> None:
+    """Refuse names that are those of other frames and links."""
+    others = {GROUND_FRAME: "the ground", steered_axle_link(names[0]): f"the steered axle of {names[0]}"}
+    others |= {hitch_frame(name): f"the hitch of {name}" for name in names[1:]}
+    for index, name in enumerate(names):
+        if name in others:
+            raise VehicleError(
+                source,
+                f"units.{index}.name",
+                f"{name!r}: that is the frame of {others[name]}; expected another",
+            )
 
 
 def _check_lengths(unit: dict[str, Any], key: str, source: str) -> None:

@@ -7,6 +7,9 @@ WIDTH = 2.5
 HEIGHT = 1.5
 """Of every unit in m, for pictures only."""
 
+GROUND_FRAME = "odom"
+"""Name of the frame of the ground."""
+
 
 def extent(unit: Unit) -> tuple[float, float]:
     """Rearmost and foremost axle or hitch of a unit, in m from its centre of gravity."""
@@ -18,3 +21,8 @@ def extent(unit: Unit) -> tuple[float, float]:
 def hitch_frame(towed: str) -> str:
     """Name of the frame at the front hitch of a towed unit, turned as the unit is."""
     return f"{towed}_hitch"
+
+
+def steered_axle_link(lead: str) -> str:
+    """Name of the link that turns as the steered wheels of the lead unit do."""
+    return f"{lead}_steered_axle"

@@ -3,7 +3,7 @@
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from yawdamp_ros.vehicle.model import Unit, Vehicle
-from yawdamp_ros.vehicle.shape import HEIGHT, WIDTH, extent, hitch_frame
+from yawdamp_ros.vehicle.shape import HEIGHT, WIDTH, extent, hitch_frame, steered_axle_link
 
 
 def urdf(vehicle: Vehicle) -> str:
@@ -34,8 +34,8 @@ def urdf(vehicle: Vehicle) -> str:
         _ends(fixed, hitch_frame(towed.name), towed.name, -front_hitch)
     lead = vehicle.units[0]
     steered = next(axle.position for axle in lead.axles if axle.steered)
-    SubElement(robot, "link", name=f"{lead.name}_steered_axle")
-    _revolute(robot, "steering", (lead.name, f"{lead.name}_steered_axle"), steered, 1)
+    SubElement(robot, "link", name=steered_axle_link(lead.name))
+    _revolute(robot, "steering", (lead.name, steered_axle_link(lead.name)), steered, 1)
     indent(robot)
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
 

@@ -1,0 +1,55 @@
+"""Whether a disk has room for a run, before it is written."""
+
+import shutil
+from pathlib import Path
+
+from yawdamp_ros.logs.errors import LogError
+
+CSV_VALUE = 22
+"""Bytes of a number of a CSV file, with its comma."""
+RUN_UNIT = 330
+"""Bytes of a sample of a unit in a run directory, compressed."""
+SPARE = 2
+"""Times the size to come that a disk must have: others write to it, too."""
+
+
+def size_of_run(samples: int, units: int, *, csv: bool) -> int:
+    """Estimate the size of a run on disk.
+
+    Parameters
+    ----------
+    samples, units : int
+    csv : bool
+        Whether it is a CSV file; else a run directory.
+
+    Returns
+    -------
+    int
+        Bytes.
+    """
+    return samples * (CSV_VALUE * (4 * units + 1) if csv else RUN_UNIT * units)
+
+
+def check_room(output: Path, samples: int, units: int) -> None:
+    """Refuse a run that a disk has not twice the room for.
+
+    Parameters
+    ----------
+    output : Path
+        Where the run is to be, a name ending in .csv for a CSV file.
+    samples, units : int
+
+    Raises
+    ------
+    LogError
+        If there is not enough room.
+    """
+    size = size_of_run(samples, units, csv=output.suffix == ".csv")
+    place = next((parent for parent in output.absolute().parents if parent.is_dir()), Path("/"))
+    free = shutil.disk_usage(place).free
+    if SPARE * size > free:
+        raise LogError(
+            output,
+            f"about {size / 1e9:.3g} GB to write, and {free / 1e9:.3g} GB free: expected twice as much "
+            "room; a shorter --duration or a longer --sample-period takes less",
+        )
