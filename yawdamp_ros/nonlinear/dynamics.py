@@ -10,7 +10,7 @@ from yawdamp_ros.dynamics.kinematics import FloatArray, IntArray
 from yawdamp_ros.nonlinear.errors import NonlinearError
 from yawdamp_ros.nonlinear.events import NEVER, Event, event_count, named_events
 from yawdamp_ros.nonlinear.layout import FRICTION_LEFT, FRICTION_RIGHT, SPEED, InputLayout, StateLayout
-from yawdamp_ros.nonlinear.motion import DIVERGED, DONE, rates, rk4_steps
+from yawdamp_ros.nonlinear.motion import DIVERGED, ROLLED_OVER, rates, rk4_steps
 from yawdamp_ros.nonlinear.outputs import Outputs, empty_outputs, write_outputs
 from yawdamp_ros.nonlinear.parameters import parameters
 from yawdamp_ros.nonlinear.records import (
@@ -39,12 +39,15 @@ class Steps:
         Name of the unit that rolled over, at which the motion ends; empty otherwise.
     events : tuple of Event
         That began in these steps and not before.
+    diverged : str
+        Name of the unit whose motion diverges in the next step; empty otherwise.
     """
 
     states: FloatArray
     taken: int
     rolled_over: str
     events: tuple[Event, ...]
+    diverged: str = ""
 
 
 @dataclass(frozen=True)
@@ -173,7 +176,35 @@ class NonlinearDynamics:
         first: int = 0,
         event_steps: IntArray | None = None,
     ) -> Steps:
-        """Take Runge-Kutta steps of fourth order.
+        """Take Runge-Kutta steps of fourth order; see `try_steps`.
+
+        Raises
+        ------
+        NonlinearError
+            If the motion diverges: it names the step and the unit.
+        """
+        found = self.try_steps(state, inputs, dt, count, every, first, event_steps)
+        if found.diverged:
+            step = first + found.taken
+            message = (
+                f"{self.vehicle.name}: the motion of {found.diverged} diverges at step {step} "
+                f"({step * dt:.6g} s): expected a step shorter than {dt:g} s, or softer numbers in the "
+                "vehicle file"
+            )
+            raise NonlinearError(message)
+        return found
+
+    def try_steps(  # noqa: PLR0913 - each is one part of an integration
+        self,
+        state: FloatArray,
+        inputs: FloatArray,
+        dt: float,
+        count: int | None = None,
+        every: int = 1,
+        first: int = 0,
+        event_steps: IntArray | None = None,
+    ) -> Steps:
+        """Take Runge-Kutta steps of fourth order, up to where the motion ends.
 
         The motion does not depend on how the steps are divided among calls.
 
@@ -201,7 +232,7 @@ class NonlinearDynamics:
         Raises
         ------
         NonlinearError
-            If the motion diverges: it names the step and the unit.
+            If the counts do not fit together.
         """
         rows = np.ascontiguousarray(np.atleast_2d(inputs), float)
         count = len(rows) if count is None else count
@@ -219,16 +250,15 @@ class NonlinearDynamics:
             taken, status, place = rk4_steps(
                 current, rows, dt, self.parameters, self._work(), stages, samples, every, first, noted
             )
-        if status == DIVERGED:
-            raise NonlinearError(self._divergence(first + taken, dt, place))
         names = self.vehicle.unit_names
         begun = np.where(before == NEVER, noted, NEVER)
         axles = tuple(len(unit.axles) for unit in self.vehicle.units)
         return Steps(
             samples[: taken // every],
             taken,
-            "" if status == DONE else names[place],
+            names[place] if status == ROLLED_OVER else "",
             tuple(named_events(begun, names, axles)),
+            names[self._unit_of(place)] if status == DIVERGED else "",
         )
 
     def outputs(self, states: FloatArray, inputs: FloatArray) -> Outputs:
@@ -257,15 +287,9 @@ class NonlinearDynamics:
     def _work(self) -> Work:
         return make_work(self.layout.units, self.layout.axles)
 
-    def _divergence(self, step: int, dt: float, place: int) -> str:
-        p = self.parameters
+    def _unit_of(self, place: int) -> int:
+        """Unit of an element of the state."""
         if place < len(self.layout.unit_of):
-            unit = self.layout.unit_of[place]
-        else:
-            axle = (place - len(self.layout.unit_of)) // 2 % self.layout.axles
-            unit = int(np.searchsorted(p.first_axle, axle, side="right")) - 1
-        name = self.vehicle.unit_names[unit]
-        return (
-            f"{self.vehicle.name}: the motion of {name} diverges at step {step} ({step * dt:.6g} s): "
-            f"expected a step shorter than {dt:g} s, or softer numbers in the vehicle file"
-        )
+            return self.layout.unit_of[place]
+        axle = (place - len(self.layout.unit_of)) // 2 % self.layout.axles
+        return int(np.searchsorted(self.parameters.first_axle, axle, side="right")) - 1

@@ -1,5 +1,6 @@
 """Where each quantity stands in the state and in the input of the nonlinear model."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -95,6 +96,26 @@ class StateLayout:
     def moving(self) -> slice:
         """Everything but position and yaw of the lead unit: on a flat road nothing depends on these."""
         return slice(3, self.size)
+
+    def names(self, unit_names: Sequence[str]) -> tuple[str, ...]:
+        """Return the name of every element.
+
+        Parameters
+        ----------
+        unit_names : sequence of str
+        """
+        wheels = [f"wheel_{wheel}" for wheel in range(1, 2 * self.axles + 1)]
+        return (
+            *("x", "y", "yaw"),
+            *(f"articulation_{joint}" for joint in range(1, self.units)),
+            *("longitudinal_velocity", "lateral_velocity"),
+            *(
+                f"{unit}/{name}"
+                for name in ("yaw_rate", "roll", "roll_rate", "pitching_moment")
+                for unit in unit_names
+            ),
+            *(f"{wheel}/{name}" for name in ("lateral_slip", "carcass") for wheel in wheels),
+        )
 
     @cached_property
     def unit_of(self) -> tuple[int, ...]:

@@ -18,7 +18,16 @@ def _linear(name: str, vehicle: Vehicle, speed: float | None, step_size: float) 
     return Stepper(linear_model(vehicle, speed, name), step_size)
 
 
-MODELS: Mapping[str, Factory] = MappingProxyType({name: partial(_linear, name) for name in LINEAR_MODELS})
+def _nonlinear(vehicle: Vehicle, speed: float | None, step_size: float) -> Motion:
+    # Numba takes long to import, which no other model waits for.
+    from yawdamp_ros.simulation.nonlinear_motion import NonlinearMotion  # noqa: PLC0415
+
+    return NonlinearMotion(vehicle, speed, step_size)
+
+
+MODELS: Mapping[str, Factory] = MappingProxyType(
+    {name: partial(_linear, name) for name in LINEAR_MODELS} | {"nonlinear": _nonlinear}
+)
 """A model is added here, and nowhere else; what it needs is best imported in its factory."""
 
 

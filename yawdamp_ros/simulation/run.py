@@ -8,7 +8,7 @@ import numpy as np
 
 from yawdamp_ros.simulation.limits import Limits, Stop, limit_violation
 from yawdamp_ros.simulation.sink import Sink
-from yawdamp_ros.stepping import AppliedInput, Command, Motion, Sample, TimeGrid
+from yawdamp_ros.stepping import AppliedInput, Command, Event, Motion, Sample, TimeGrid
 
 SAMPLES_AT_ONCE = 1000
 """Instants that are computed before they are handed on, where nothing waits for each."""
@@ -48,6 +48,8 @@ class Run:
         Handed on so far.
     stopped : Stop or None
         Why it was stopped; nothing is handed on any more.
+    events : list of Event
+        What happened so far, in order of time.
     """
 
     def __init__(
@@ -63,6 +65,7 @@ class Run:
         self.limits = limits
         self.samples = 0
         self.stopped: Stop | None = None
+        self.events: list[Event] = []
         self._source = source
         self._sinks = tuple(sinks)
 
@@ -116,17 +119,21 @@ class Run:
             return
         if received := self._source.received():
             sample = sample._replace(commands=received)
-        for event in sample.events:
-            if event.final:
-                self.stopped = Stop(event.step, event.name, event.where, f"{event.name} of {event.where}")
-                break
-        if self.limits is not None and (
-            found := limit_violation(sample, self.motion.vehicle.unit_names, self.limits)
-        ):
-            instant, self.stopped = found
+        self.events += sample.events
+        final = next((event for event in sample.events if event.final), None)
+        if final is not None:
+            reason = f"{final.name.replace('_', ' ')} of {final.where}"
+            self.stopped = Stop(final.step, final.name, final.where, reason)
+        found = None
+        if self.limits is not None:
+            found = limit_violation(sample, self.motion.vehicle.unit_names, self.limits)
+        if found is not None:
+            instant, violation = found
+            # What follows a final event is no number, and not the reason.
+            self.stopped = self.stopped or violation
             if not instant:
                 return
-            sample = sample.before(instant)
+            sample = sample.before(instant)._replace(events=sample.events)
         self.samples += np.size(sample.step)
         for sink in self._sinks:
             sink.write(sample)

@@ -11,7 +11,7 @@ from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.motion import Motion
 from yawdamp_ros.stepping.propagation import Propagation, outputs_of
 from yawdamp_ros.stepping.propagators import propagator
-from yawdamp_ros.stepping.sample import AppliedInput, Sample
+from yawdamp_ros.stepping.sample import AppliedInput, Event, Sample
 from yawdamp_ros.stepping.stepper import Stepper
 from yawdamp_ros.stepping.time_grid import TimeGrid
 from yawdamp_ros.stepping.yaw import LARGEST_YAW
@@ -41,6 +41,8 @@ class Response:
         Centres of gravity in the ground frame, m.
     extra : mapping of str to ndarray, shape (m, n), (m, n - 1) or (m, 1)
         Quantities that not every motion has, as `Sample.extra`.
+    events : tuple of Event
+        What happened, in order of time; where the last is final, the run ends there.
     """
 
     unit_names: tuple[str, ...]
@@ -53,6 +55,7 @@ class Response:
     x: FloatArray
     y: FloatArray
     extra: Mapping[str, FloatArray] = field(default_factory=dict)
+    events: tuple[Event, ...] = ()
 
     @classmethod
     def of(cls, samples: Iterable[Sample], unit_names: Sequence[str], grid: TimeGrid) -> "Response":
@@ -78,6 +81,7 @@ class Response:
                 )
                 for name in taken[0].extra
             },
+            events=tuple(event for sample in taken for event in sample.events),
         )
 
 
@@ -97,7 +101,7 @@ def sample_run(motion: Motion, grid: TimeGrid, steering: Steering, duration: flo
     Yields
     ------
     Sample
-        Of one instant, then of up to `SAMPLES_AT_ONCE` each.
+        Of one instant, then of up to `SAMPLES_AT_ONCE` each; the last ends before a final event.
 
     Raises
     ------
@@ -111,6 +115,10 @@ def sample_run(motion: Motion, grid: TimeGrid, steering: Steering, duration: flo
         samples = min(SAMPLES_AT_ONCE, last - begin)
         steps = range(motion.step + 1, motion.step + 1 + samples * grid.steps_per_sample)
         sample = motion.run([steering(grid.seconds(step)) for step in steps], grid.steps_per_sample)
+        if any(event.final for event in sample.events):
+            known = ~np.isnan(sample.yaw_rate).any(axis=-1)
+            yield sample.before(int(known.sum()))._replace(events=sample.events)
+            return
         yield _finite(sample, motion, grid)
 
 

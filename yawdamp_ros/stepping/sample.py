@@ -120,13 +120,13 @@ class Sample(NamedTuple):
     commands: tuple[Command, ...] = ()
 
     def before(self, instant: int) -> "Sample":
-        """Sample of the instants before one of several, at least one, and what happened up to the last."""
+        """Sample of the instants before one of several, and what happened up to the last."""
+        last = int(self.step[instant - 1]) if instant else int(self.step[0]) - 1
         cut = {
             name: value[:instant]
             for name, value in self._asdict().items()
             if isinstance(value, np.ndarray) and value.shape[:1] == self.step.shape
         }
-        last = int(self.step[instant - 1])
         return self._replace(
             **cut,
             extra={name: value[:instant] for name, value in self.extra.items()},
