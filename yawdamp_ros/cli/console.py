@@ -1,5 +1,7 @@
 """Progress of commands, on standard error."""
 
+from collections.abc import Callable, Iterator, Sequence
+
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -41,3 +43,13 @@ def progress_bar(unit: str = "s") -> Progress:
         disable=not console.is_terminal,
         transient=True,
     )
+
+
+def progress_of(description: str) -> Callable[[Sequence[float]], Iterator[float]]:
+    """Return what iterates over values and shows how far it is, as `progress_bar` does."""
+
+    def progress(values: Sequence[float]) -> Iterator[float]:
+        with progress_bar("values") as bar:
+            yield from bar.track(values, description=description)
+
+    return progress

@@ -2,12 +2,13 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NoReturn
 
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.program import program
-from yawdamp_ros.dynamics import MODELS, LinearModel, linear_model
+from yawdamp_ros.dynamics import MODELS as LINEAR_MODELS
+from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.errors import one_line
 from yawdamp_ros.manoeuvres import MANOEUVRES
 from yawdamp_ros.simulation import SimParameters
@@ -76,12 +77,12 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(message)
 
 
-def add_vehicle_options(parser: argparse.ArgumentParser) -> None:
+def add_vehicle_options(parser: argparse.ArgumentParser, models: Iterable[str] = LINEAR_MODELS) -> None:
     """Add --vehicle, --speed, --model and --set; None is what was not given."""
     group = parser.add_argument_group("vehicle")
     group.add_argument("--vehicle", help=f"builtin name or file (default: {DEFAULT_VEHICLE})")
     group.add_argument("--speed", type=float, metavar="M/S", help="default: the vehicle's own")
-    group.add_argument("--model", choices=tuple(MODELS), help=f"default: {DEFAULT_MODEL}")
+    group.add_argument("--model", choices=tuple(models), help=f"default: {DEFAULT_MODEL}")
     group.add_argument(
         "--set",
         action="append",

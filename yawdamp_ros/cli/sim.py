@@ -115,6 +115,8 @@ def _parser() -> "argparse.ArgumentParser":
         add_vehicle_options,
     )
 
+    from yawdamp_ros.simulation import MODELS  # noqa: PLC0415
+
     parser = Parser(
         "sim",
         "The simulator node: steering in on /steering, the motion of every unit out, recorded. Every\n"
@@ -122,7 +124,7 @@ def _parser() -> "argparse.ArgumentParser":
         "yawdamp sim --vehicle interlink --manoeuvre lane_change --duration 15\n"
         "  ros2 run yawdamp_ros sim --ros-args -p vehicle:=interlink -p publish_rate:=50.0",
     )
-    add_vehicle_options(parser)
+    add_vehicle_options(parser, MODELS)
     add_manoeuvre_options(parser)
     add_run_settings(parser)
     run = parser.add_argument_group("run")

@@ -33,6 +33,7 @@ from yawdamp_ros.logs.room import check_room
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.runs import ResponseCsv, default_run_directory, make_run_directory
 from yawdamp_ros.simulation import (
+    MODELS,
     SAMPLES_AT_ONCE,
     Commands,
     Limits,
@@ -195,7 +196,7 @@ def _parser() -> Parser:
         "yawdamp simulate --manoeuvre lane_change --output run.csv\n"
         "  yawdamp simulate --log drive.csv --steering-ratio 16.88",
     )
-    add_vehicle_options(parser)
+    add_vehicle_options(parser, MODELS)
     add_manoeuvre_options(parser)
     add_log_options(parser)
     add_run_settings(parser)

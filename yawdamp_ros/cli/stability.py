@@ -1,11 +1,11 @@
 """`stability`: the modes of a vehicle, and what they depend on."""
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from yawdamp_ros.analysis import TransferFunction, eigenvalue_locus, parse_variation, transfer_function
-from yawdamp_ros.cli import stability_report
-from yawdamp_ros.cli.console import progress_bar
+from yawdamp_ros.cli import severity_report, stability_report
+from yawdamp_ros.cli.console import progress_of
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.options import (
@@ -19,6 +19,7 @@ from yawdamp_ros.cli.options import (
     overrides,
 )
 from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.simulation import MODELS
 
 PICTURES = {"bode": "Bode diagram", "nyquist": "Nyquist diagram", "root_locus": "root locus under feedback"}
 
@@ -26,6 +27,12 @@ PICTURES = {"bode": "Bode diagram", "nyquist": "Nyquist diagram", "root_locus": 
 def main(argv: Sequence[str]) -> int:
     """Run the command; 1 if the vehicle is unstable."""
     options = _parser().parse_args(argv)
+    if options.model == "nonlinear":
+        return _severity(options)
+    for name in severity_report.CONDITIONS:
+        if getattr(options, name) is not None:
+            message = f"--{name}: only --model nonlinear depends on it"
+            raise UsageError(message)
     if options.plot and not options.vary:
         message = (
             "--plot: it draws what --vary gives; the pictures of --output are --bode, --nyquist, --root-locus"
@@ -47,6 +54,14 @@ def main(argv: Sequence[str]) -> int:
     return 0 if answer.stable else 1
 
 
+def _severity(options: argparse.Namespace) -> int:
+    for name in ("vary", "output", *PICTURES):
+        if getattr(options, name):
+            message = f"--{name.replace('_', '-')}: not with --model nonlinear; expected --turn"
+            raise UsageError(message)
+    return severity_report.run(options)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(
         "stability",
@@ -54,8 +69,9 @@ def _parser() -> argparse.ArgumentParser:
         "Exit status: 0 if it is stable, 1 if it is not, 2 for wrong use; 0 with --vary.",
         "yawdamp stability --vehicle interlink --vary speed=5:35:31 --plot locus.png",
     )
-    add_vehicle_options(parser)
+    add_vehicle_options(parser, MODELS)
     add_format_option(parser)
+    severity_report.add_conditions(parser)
     group = parser.add_argument_group("over a parameter")
     group.add_argument(
         "--vary",
@@ -63,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
         help="eigenvalues and boundaries of stability over N values of a key, as in speed=5:35:31 or "
         "units.1.mass=4156:36000:33; keys separated by commas vary together",
     )
-    group.add_argument("--plot", metavar="FILE", help="draw that locus as PNG or SVG, by the file's name")
+    group.add_argument("--plot", metavar="FILE", help="draw that locus, or the turns, as PNG or SVG")
     group = parser.add_argument_group("transfer function from the steer angle")
     group.add_argument(
         "--output",
@@ -113,7 +129,7 @@ def _vary(options: argparse.Namespace) -> int:
     variation = parse_variation(options.vary)
     chosen_vehicle(options)  # warns of what is doubtful about it, whatever varies
     models = variation.models(chosen_name(options), overrides(options), options.model or DEFAULT_MODEL)
-    locus = eigenvalue_locus(models, variation.values, _progress)
+    locus = eigenvalue_locus(models, variation.values, progress_of("varying"))
     first = models(variation.values[0])
     if options.plot:
         from yawdamp_ros.pictures import save  # noqa: PLC0415
@@ -126,7 +142,3 @@ def _vary(options: argparse.Namespace) -> int:
         stability_report.print_locus_text(first, variation.keys, locus)
     return 0
 
-
-def _progress(values: Sequence[float]) -> Iterator[float]:
-    with progress_bar("values") as bar:
-        yield from bar.track(values, description="varying")

@@ -165,8 +165,12 @@ class NonlinearMotion:
         self._told = []
 
     def linearise(self) -> LinearModel:
-        """Linear model `consistent`, to which this motion tends for small steering, at the speed of now."""
-        return linear_model(self.vehicle, max(abs(self.speed), LOWEST_SPEED))
+        """Linear model `consistent`, to which this motion tends for small steering, at the speed of now.
+
+        Of a motion that has ended, at the speed at which it began.
+        """
+        speed = self.speed if np.isfinite(self.speed) else self._first_speed
+        return linear_model(self.vehicle, max(abs(speed), LOWEST_SPEED))
 
     def _take(self, rows: FloatArray, every: int) -> tuple[FloatArray, tuple[Event, ...]]:
         """Take a step for each row of inputs; states after a motion that has ended are NaN."""
