@@ -82,7 +82,8 @@ def add_vehicle_options(parser: argparse.ArgumentParser, models: Iterable[str] =
     group = parser.add_argument_group("vehicle")
     group.add_argument("--vehicle", help=f"builtin name or file (default: {DEFAULT_VEHICLE})")
     group.add_argument("--speed", type=float, metavar="M/S", help="default: the vehicle's own")
-    group.add_argument("--model", choices=tuple(models), help=f"default: {DEFAULT_MODEL}")
+    if models:
+        group.add_argument("--model", choices=tuple(models), help=f"default: {DEFAULT_MODEL}")
     group.add_argument(
         "--set",
         action="append",

@@ -1,8 +1,11 @@
 """The short table that ends a run."""
 
+from collections.abc import Sequence
+
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.stepping import Event
 
 
 def print_peaks(model: LinearModel, peaks: Peaks, note: str) -> None:
@@ -24,3 +27,14 @@ def print_peaks(model: LinearModel, peaks: Peaks, note: str) -> None:
     )
     if note:
         print(f"note: {note}")
+
+
+def event_text(event: Event, step_size: float) -> str:
+    """An event in words, with its simulated time."""
+    return f"{event.name.replace('_', ' ')} of {event.where} at {event.step * step_size:.3f} s"
+
+
+def print_events(events: Sequence[Event], step_size: float) -> None:
+    """Print what happened, a line each."""
+    for event in events:
+        print(event_text(event, step_size))

@@ -1,16 +1,26 @@
 """`plot`: the curves of runs."""
 
+import argparse
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.extras import require
-from yawdamp_ros.cli.options import Parser
+from yawdamp_ros.cli.options import (
+    Parser,
+    add_manoeuvre_options,
+    add_vehicle_options,
+    chosen_vehicle,
+    manoeuvre_settings,
+)
+from yawdamp_ros.cli.peaks_table import event_text
 from yawdamp_ros.logs import is_recording
 from yawdamp_ros.runs import read_response_csv, read_response_recording
 from yawdamp_ros.stepping import Response
 
+SAMPLE_STEP, SAMPLE_PERIOD = 0.001, 0.01
+"""Of the runs that --models makes, s."""
 KINDS = (".png", ".svg", ".html")
 
 
@@ -21,11 +31,12 @@ def main(argv: Sequence[str]) -> int:
         "Steer angle, yaw, yaw rate, lateral acceleration and articulation over time, and the paths where a\n"
         "run holds them. Several runs are compared in one picture.",
         "yawdamp plot runs/20261121-120000_interlink --output run.html\n"
-        "  yawdamp plot interlink.csv interlink_rated_tyres.csv --output comparison.svg",
+        "  yawdamp plot interlink.csv interlink_rated_tyres.csv --output comparison.svg\n"
+        "  yawdamp plot --models consistent,nonlinear --manoeuvre lane_change --amplitude 0.05",
     )
     parser.add_argument(
         "runs",
-        nargs="+",
+        nargs="*",
         metavar="RUN",
         help="run directory, its MCAP file, or CSV file as simulate --output FILE.csv writes it",
     )
@@ -35,16 +46,58 @@ def main(argv: Sequence[str]) -> int:
         metavar="FILE",
         help="PNG, SVG or an HTML page to zoom into, by the file's name (default: plot.png)",
     )
+    parser.add_argument(
+        "--models",
+        metavar="NAME,NAME",
+        help="in place of runs: one manoeuvre of one vehicle by several models, laid over each other",
+    )
+    parser.add_argument("--duration", type=float, metavar="S", help="of that manoeuvre; default: 15")
+    add_vehicle_options(parser, ())
+    add_manoeuvre_options(parser)
     options = parser.parse_args(argv)
     kind = Path(options.output).suffix.lower()
     if kind not in KINDS:
         message = f"--output: {options.output}: expected a name ending in {', '.join(KINDS)}"
         raise UsageError(message)
     require("plotly" if kind == ".html" else "matplotlib")
-    runs = [(name, _read(Path(run))) for name, run in zip(_names(options.runs), options.runs, strict=True)]
+    runs = _by_models(options) if options.models else _recorded(options)
     _draw(runs, options.output, kind)
     print(options.output)
     return 0
+
+
+def _recorded(options: argparse.Namespace) -> list[tuple[str, Response]]:
+    """Runs that were given, each with its name."""
+    if not options.runs:
+        message = "no run; expected RUN, or --models with a manoeuvre"
+        raise UsageError(message)
+    given = [name for name in ("vehicle", "speed", "duration", "manoeuvre") if getattr(options, name) is not None]
+    if given or options.set or manoeuvre_settings(options):
+        message = f"--{given[0] if given else 'set'}: a run holds its own; it goes with --models"
+        raise UsageError(message)
+    return [(name, _read(Path(run))) for name, run in zip(_names(options.runs), options.runs, strict=True)]
+
+
+def _by_models(options: argparse.Namespace) -> list[tuple[str, Response]]:
+    """The same manoeuvre by every model."""
+    from yawdamp_ros.manoeuvres import make_manoeuvre  # noqa: PLC0415
+    from yawdamp_ros.simulation import MODELS, simulate  # noqa: PLC0415 - not needed by recorded runs
+
+    if options.runs or options.manoeuvre is None:
+        message = "--models: expected --manoeuvre NAME and no RUN"
+        raise UsageError(message)
+    runs = []
+    for model in options.models.split(","):
+        if model not in MODELS:
+            message = f"--models: {model!r}: expected names of {', '.join(MODELS)}"
+            raise UsageError(message)
+        duration = 15.0 if options.duration is None else options.duration
+        steering, vehicle = make_manoeuvre(options.manoeuvre, manoeuvre_settings(options)), chosen_vehicle(options)
+        response = simulate(vehicle, steering, duration, sample_period=SAMPLE_PERIOD, model=model)
+        for event in response.events:
+            print(f"{model}: {event_text(event, SAMPLE_STEP)}")
+        runs.append((f"{vehicle.name}, {model}", response))
+    return runs
 
 
 def _draw(runs: Sequence[tuple[str, Response]], output: str, kind: str) -> None:
