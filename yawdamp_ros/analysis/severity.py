@@ -144,7 +144,9 @@ def severity(  # noqa: PLR0913 - each is one condition of the turn
             if not found:
                 raise AnalysisError(str(error)) from error
             hardest = lateral_acceleration if turning else braking
-            limit = f"no steady motion at {share * hardest:.3g} m/s^2 of {'turning' if turning else 'braking'}"
+            limit = (
+                f"no steady motion at {share * hardest:.3g} m/s^2 of {'turning' if turning else 'braking'}"
+            )
             break
         found.append(turn)
         matrix = linearise(dynamics, turn.state, turn.inputs).state_matrix

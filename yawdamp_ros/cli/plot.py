@@ -71,7 +71,9 @@ def _recorded(options: argparse.Namespace) -> list[tuple[str, Response]]:
     if not options.runs:
         message = "no run; expected RUN, or --models with a manoeuvre"
         raise UsageError(message)
-    given = [name for name in ("vehicle", "speed", "duration", "manoeuvre") if getattr(options, name) is not None]
+    given = [
+        name for name in ("vehicle", "speed", "duration", "manoeuvre") if getattr(options, name) is not None
+    ]
     if given or options.set or manoeuvre_settings(options):
         message = f"--{given[0] if given else 'set'}: a run holds its own; it goes with --models"
         raise UsageError(message)
@@ -92,7 +94,10 @@ def _by_models(options: argparse.Namespace) -> list[tuple[str, Response]]:
             message = f"--models: {model!r}: expected names of {', '.join(MODELS)}"
             raise UsageError(message)
         duration = 15.0 if options.duration is None else options.duration
-        steering, vehicle = make_manoeuvre(options.manoeuvre, manoeuvre_settings(options)), chosen_vehicle(options)
+        steering, vehicle = (
+            make_manoeuvre(options.manoeuvre, manoeuvre_settings(options)),
+            chosen_vehicle(options),
+        )
         response = simulate(vehicle, steering, duration, sample_period=SAMPLE_PERIOD, model=model)
         for event in response.events:
             print(f"{model}: {event_text(event, SAMPLE_STEP)}")

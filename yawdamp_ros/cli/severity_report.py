@@ -105,7 +105,14 @@ def _print(found: Severity) -> None:
     ratios, worst = found.least_damping_ratio, found.eigenvalues.real.max(axis=1)
     print_table(
         f"{found.vehicle.name} at {found.speed:.4g} m/s, nonlinear model",
-        ("braking [g]" if found.straight else "turn [g]", "steer [deg]", "damping ratio", "largest real part", "load transfer", ""),
+        (
+            "braking [g]" if found.straight else "turn [g]",
+            "steer [deg]",
+            "damping ratio",
+            "largest real part",
+            "load transfer",
+            "",
+        ),
         [
             (
                 f"{found.values[turn] / STANDARD_GRAVITY:.3f}",

@@ -114,7 +114,6 @@ def _parser() -> "argparse.ArgumentParser":
         add_run_settings,
         add_vehicle_options,
     )
-
     from yawdamp_ros.simulation import MODELS  # noqa: PLC0415
 
     parser = Parser(

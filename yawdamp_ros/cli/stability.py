@@ -141,4 +141,3 @@ def _vary(options: argparse.Namespace) -> int:
     else:
         stability_report.print_locus_text(first, variation.keys, locus)
     return 0
-

@@ -194,7 +194,7 @@ class NonlinearDynamics:
             raise NonlinearError(message)
         return found
 
-    def try_steps(  # noqa: PLR0913 - each is one part of an integration
+    def try_steps(
         self,
         state: FloatArray,
         inputs: FloatArray,

@@ -8,8 +8,8 @@ import numpy.typing as npt
 
 from yawdamp_ros.dynamics import LOWEST_SPEED, LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.nonlinear import EventKind, NonlinearDynamics, Outputs
 from yawdamp_ros.nonlinear import Event as NonlinearEvent
+from yawdamp_ros.nonlinear import EventKind, NonlinearDynamics, Outputs
 from yawdamp_ros.nonlinear.layout import ACCELERATION, FRICTION_LEFT, FRICTION_RIGHT, SPEED, STEERING
 from yawdamp_ros.stepping import AppliedInput, Event, Sample
 from yawdamp_ros.vehicle import Vehicle
@@ -183,7 +183,8 @@ class NonlinearMotion:
         self._state = states[-1]
         events = [_event(each) for each in found.events]
         if found.diverged:
-            events.append(Event(self._step - len(rows) + found.taken, "divergence", found.diverged, True))
+            step = self._step - len(rows) + found.taken
+            events.append(Event(step, "divergence", found.diverged, final=True))
         return states, tuple(events)
 
     def _sample_of(
