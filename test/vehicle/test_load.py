@@ -16,12 +16,14 @@ def test_the_interlink_holds_the_numbers_of_the_report() -> None:
     assert sum(unit.mass for unit in vehicle.units) == 56000.0
     assert [unit.yaw_inertia for unit in vehicle.units] == [36776.6, 53285.6, 376276.03]
     assert truck.axles == (
-        Axle(0.040, 891384.14, steered=True),
-        Axle(-3.719, 592777.40),
-        Axle(-5.119, 592777.40),
+        Axle(0.040, 891384.14, steered=True, static_load=2 * 32843.88),
+        Axle(-3.719, 592777.40, static_load=4 * 19239.86),
+        Axle(-5.119, 592777.40, static_load=4 * 19239.86),
     )
     assert [axle.position for axle in trailer_1.axles] == [-5.225, -6.625]
     assert [axle.cornering_stiffness for axle in trailer_2.axles] == [632902.54] * 2
+    assert [axle.static_load for axle in trailer_1.axles] == [4 * 20386.41] * 2
+    assert [axle.static_load for axle in trailer_2.axles] == [4 * 20832.76] * 2
     assert vehicle.hitches == ((-3.311, 1.275), (-5.225, 4.645))
 
 
