@@ -25,6 +25,7 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "compare": "simulated against measured on a recorded drive: bias, gain, lag, R2, coherence",
         "identify": "parameters of a vehicle from a recorded drive, with confidence intervals",
         "plot": "the curves of a run, or of several compared, as a picture",
+        "show": "what a vehicle is: loads, hitches, tyres; given, assumed, implausible; to scale",
         "urdf": "a vehicle as URDF, for robot_state_publisher",
     }
 )

@@ -1,6 +1,6 @@
 """What a vehicle combination is, and how one is read from a file."""
 
-from yawdamp_ros.vehicle.complete import Assumed, assumed, complete
+from yawdamp_ros.vehicle.complete import Assumed, assumed, complete, given
 from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.load import (
     VehicleSource,
@@ -34,6 +34,7 @@ __all__ = [
     "complete",
     "examined_vehicle",
     "fancher_stiffness",
+    "given",
     "load_stack",
     "load_vehicle",
     "parse_tir",

@@ -1,16 +1,6 @@
 """Documented defaults of what the nonlinear model needs and a vehicle file need not give.
 
-They are those of laden heavy vehicles.
-
-Sources, by the short names that `Assumed.source` holds:
-
-- Factbook: Fancher, Ervin, Winkler, Gillespie, A factbook of the mechanical properties of the components for
-  single-unit and articulated heavy trucks, UMTRI-86-12, 1986: the range that it tabulates.
-- Sampson: Active roll control of articulated heavy vehicles, University of Cambridge, 2000, appendix.
-- Pacejka: Tire and vehicle dynamics, 3rd edition, 2012.
-- ISO 1726, ISO 28580, 96/53/EC, UN R13: the standard or the regulation.
-- statics: from masses and positions.
-- linear: as the linear model assumes it.
+They are those of laden heavy vehicles. `SOURCES` holds where they come from.
 """
 
 import math
@@ -21,6 +11,24 @@ from typing import Any, NamedTuple
 
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 from yawdamp_ros.vehicle.statics import static_loads
+
+SOURCES: Mapping[str, str] = MappingProxyType(
+    {
+        "Factbook": "Fancher, Ervin, Winkler, Gillespie, A factbook of the mechanical properties of the "
+        "components for single-unit and articulated heavy trucks, UMTRI-86-12, 1986: the range that it "
+        "tabulates",
+        "Sampson": "Active roll control of articulated heavy vehicles, University of Cambridge, 2000, "
+        "appendix",
+        "Pacejka": "Tire and vehicle dynamics, 3rd edition, 2012",
+        "ISO 1726": "the standard on fifth-wheel heights",
+        "ISO 28580": "the standard on rolling resistance",
+        "96/53/EC": "the directive on weights and dimensions",
+        "UN R13": "the regulation on brakes",
+        "statics": "from masses and positions",
+        "linear": "as the linear model assumes it",
+    }
+)
+"""What the short names stand for with which `Assumed.source` begins."""
 
 LIGHT_UNIT = 6000.0
 """Mass up to which a towed unit counts as a dolly [kg]."""
@@ -97,11 +105,17 @@ UNIT_DEFAULTS: Mapping[str, Default] = MappingProxyType(
         "hitch_damping": Default("N m s/rad", "linear", lambda _: 0.0),
         "max_articulation": Default("rad", "a right angle", lambda _: 0.5 * math.pi),
         "front_overhang": Default(
-            "m", "96/53/EC: cab 1.4, trailer 1.2", lambda unit: 1.4 if unit.front_hitch is None else 1.2
+            "m",
+            "96/53/EC: cab 1.4, trailer 1.2; a dolly's eye is its foremost point",
+            lambda unit: 1.4 if unit.front_hitch is None else 0.0 if _is_dolly(unit) else 1.2,
         ),
         "rear_overhang": Default("m", "half a metre behind the last wheel", lambda _: 1.0),
         "width": Default("m", "96/53/EC: 2.55", lambda _: 2.55),
-        "height": Default("m", "96/53/EC: 4.0", lambda _: 4.0),
+        "height": Default(
+            "m",
+            "96/53/EC: 4.0; a dolly ends at its fifth wheel",
+            lambda unit: 1.25 if _is_dolly(unit) else 4.0,
+        ),
     }
 )
 AXLE_DEFAULTS: Mapping[str, Default] = MappingProxyType(
@@ -196,6 +210,36 @@ def assumed(vehicle: Vehicle) -> tuple[Assumed, ...]:
                 found.append(
                     Assumed(f"{key}axles.{place}.driven", entire.driven, "", "rear axles of the lead unit")
                 )
+    return tuple(found)
+
+
+def given(vehicle: Vehicle) -> tuple[str, ...]:
+    """List the keys that the nonlinear model needs and the vehicle file gives, so that nothing is assumed.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    tuple of str
+        As ``--set`` takes them.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> given(load_vehicle("truck_trailer"))
+    ()
+    >>> given(load_vehicle("interlink"))[0]
+    'units.0.axles.0.static_load'
+    """
+    found = [name for name in VEHICLE_DEFAULTS if getattr(vehicle, name) is not None]
+    for index, unit in enumerate(vehicle.units):
+        key = f"units.{index}."
+        found += [key + name for name in UNIT_DEFAULTS if getattr(unit, name) is not None]
+        for place, axle in enumerate(unit.axles):
+            names = (*AXLE_DEFAULTS, "driven")
+            found += [f"{key}axles.{place}.{name}" for name in names if getattr(axle, name) is not None]
     return tuple(found)
 
 
