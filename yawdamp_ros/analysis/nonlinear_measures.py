@@ -7,7 +7,7 @@ import numpy as np
 
 from yawdamp_ros.analysis.amplification import rearward_amplification
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.lane_change import run_lane_change, steer_axle
+from yawdamp_ros.analysis.lane_change import run_lane_change, steer_axle_position
 from yawdamp_ros.analysis.measures import MEASURES
 from yawdamp_ros.analysis.offtracking import STEADY_RADIUS, high_speed_transient_offtracking
 from yawdamp_ros.analysis.severity import severity
@@ -122,7 +122,7 @@ def _steady_offtracking(vehicle: Vehicle, speed: float) -> float:
         forward, sideways = turn.outputs.velocity[0, unit]
         return float(np.hypot(forward, sideways + place * yaw_rate)) / yaw_rate
 
-    return radius(last, position) - radius(0, steer_axle(vehicle).position)
+    return radius(last, position) - radius(0, steer_axle_position(vehicle))
 
 
 _VALUES: Mapping[str, Callable[[Vehicle, float], float]] = MappingProxyType(

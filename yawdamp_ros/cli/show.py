@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from yawdamp_ros.cli import show_report
+from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.options import DEFAULT_VEHICLE, Parser, add_format_option, overrides
 from yawdamp_ros.vehicle import load_vehicle, suspicions
 
@@ -13,7 +14,7 @@ def main(arguments: Sequence[str]) -> int:
         "show",
         "Masses, axle loads, wheelbases, hitches and tyres of a vehicle; what its file gives of what the\n"
         "nonlinear model needs, what is assumed, from which source, and what is implausible.",
-        "python -m yawdamp_ros show a_double --plot a_double.png",
+        "yawdamp show a_double --plot a_double.png",
     )
     parser.add_argument(
         "vehicle",
@@ -38,6 +39,7 @@ def main(arguments: Sequence[str]) -> int:
     vehicle = load_vehicle(options.vehicle, overrides(options))
     if options.plot:
         # Here and not above: matplotlib takes longer to load than the rest takes to run.
+        require("matplotlib")
         from yawdamp_ros.pictures import save  # noqa: PLC0415
         from yawdamp_ros.pictures.vehicle import vehicle_figure  # noqa: PLC0415
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from yawdamp_ros.cli.console import print_table
+from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.vehicle import (
     STANDARD_GRAVITY,
     Assumed,
@@ -86,7 +86,7 @@ def _print_units(full: Vehicle, marks: set[str]) -> None:
         for index, unit in enumerate(full.units)
     ]
     columns = ["unit", "mass\nt", "inertia\nt m²", "CG\nhigh m", "wheel-\nbase m", "front\nhitch m"]
-    print_table("Units", [*columns, "rear\nhitch m"], rows, COLUMNS)
+    print_table("Units", [*columns, "rear\nhitch m"], rows)
 
 
 def _print_axles(full: Vehicle, marks: set[str]) -> None:
@@ -109,7 +109,7 @@ def _print_axles(full: Vehicle, marks: set[str]) -> None:
                 ]
             )
     columns = ["axle", "at m", "load\nt", "stiff\nkN/rad", "over\nload", "track\nm", "tyre", ""]
-    print_table("Axles", columns, rows, COLUMNS)
+    print_table("Axles", columns, rows)
 
 
 def _print_hitches(vehicle: Vehicle, full: Vehicle, marks: set[str]) -> None:
@@ -129,7 +129,7 @@ def _print_hitches(vehicle: Vehicle, full: Vehicle, marks: set[str]) -> None:
             ]
         )
     columns = ["behind", "at m", "load\nt", "height\nm", "in roll\nkN m/rad", "turns to\ndeg"]
-    print_table("Hitches", columns, rows, COLUMNS)
+    print_table("Hitches", columns, rows)
 
 
 def _print_keys(title: str, lines: Iterable[str]) -> None:
