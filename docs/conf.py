@@ -29,6 +29,7 @@ nitpicky = False  # a type such as "ndarray, shape (n,)" is prose, not a link
 myst_enable_extensions = ["colon_fence", "dollarmath", "deflist"]
 myst_heading_anchors = 3
 
+templates_path = ["_templates"]  # classes without what they inherit: StrEnum has all of str
 autosummary_generate = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings give types with shapes and units
