@@ -11,6 +11,7 @@ from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.pictures import PictureError, save
 from yawdamp_ros.pictures.eigenvalues import locus_figure
+from yawdamp_ros.pictures.run_panels import bands, run_panels
 from yawdamp_ros.pictures.runs import runs_figure
 from yawdamp_ros.simulation import simulate
 from yawdamp_ros.vehicle import load_vehicle
@@ -70,3 +71,16 @@ def test_the_same_figure_gives_the_same_bytes(suffix: str, tmp_path: Path) -> No
 def test_a_directory_that_is_not_there_is_said(tmp_path: Path) -> None:
     with pytest.raises(PictureError, match=r"no/picture\.png: cannot be written"):
         save(runs_figure([("run", RESPONSE)]), tmp_path / "no" / "picture.png")
+
+
+def test_what_lies_beyond_the_linear_range_is_shaded() -> None:
+    def shaded(amplitude: float) -> list[tuple[float, float]]:
+        response = simulate(
+            load_vehicle("interlink"), LaneChange(amplitude=amplitude), 8.0, sample_period=0.01
+        )
+        return [band for panel in run_panels([("run", response)]) for band in bands(panel)]
+
+    assert shaded(0.018) == []
+    high, low = shaded(0.1)
+    assert (high[0], low[1]) == (4.0, -4.0)
+    assert high[1] == pytest.approx(6.4, abs=0.2)

@@ -1,11 +1,13 @@
-"""The short table that ends a run."""
+"""The peaks that end a run, as a table and as a record."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.dynamics import LinearModel
-from yawdamp_ros.stepping import Event
+from yawdamp_ros.simulation import Stop
+from yawdamp_ros.stepping import Event, TimeGrid
 
 
 def print_peaks(model: LinearModel, peaks: Peaks, note: str) -> None:
@@ -38,3 +40,24 @@ def print_events(events: Sequence[Event], step_size: float) -> None:
     """Print what happened, a line each."""
     for event in events:
         print(event_text(event, step_size))
+
+
+def peaks_record(model: LinearModel, peaks: Peaks, beyond: Stop | None, grid: TimeGrid) -> dict[str, Any]:
+    """Largest magnitudes of each unit in SI units, and where the run first left the linear range."""
+    left = None
+    if beyond is not None:
+        left = {"time": grid.seconds(beyond.step), "quantity": beyond.key, "where": beyond.where}
+    return {
+        "vehicle": model.vehicle.name,
+        "model": model.model,
+        "speed": model.speed,
+        "peaks": {
+            name: {
+                "yaw": float(peaks.yaw[index]),
+                "yaw_rate": float(peaks.yaw_rate[index]),
+                "lateral_acceleration": float(peaks.lateral_acceleration[index]),
+            }
+            for index, name in enumerate(model.vehicle.unit_names)
+        },
+        "beyond_linear_range": left,
+    }

@@ -1,6 +1,7 @@
 """`simulate`: a run offline, as fast as it goes."""
 
 import argparse
+import json
 import sys
 from collections.abc import Sequence
 from contextlib import closing
@@ -18,6 +19,7 @@ from yawdamp_ros.cli.log_options import add_log_options, chosen_log, log_options
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     Parser,
+    add_format_option,
     add_manoeuvre_options,
     add_run_settings,
     add_vehicle_options,
@@ -26,7 +28,7 @@ from yawdamp_ros.cli.options import (
     manoeuvre_settings,
     run_settings,
 )
-from yawdamp_ros.cli.peaks_table import print_peaks
+from yawdamp_ros.cli.peaks_table import peaks_record, print_peaks
 from yawdamp_ros.cli.ros import require_ros
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.room import check_room
@@ -77,6 +79,11 @@ def main(arguments: Sequence[str]) -> int:
             sinks = [sink, peaks, linear_range, _ProgressSink(bar, grid, settings.duration)]
             with closing(Run(motion, grid, commands, sinks, Limits.of(settings))) as run:
                 _carry_out(run, grid.samples_in(settings.duration), stop)
+    if options.format == "json":
+        record = peaks_record(motion.linearise(), peaks, linear_range.first, grid)
+        stopped = None if run.stopped is None else run.stopped._asdict()
+        print(json.dumps(record | {"stopped": stopped, "output": str(output)}, indent=2))
+        return 1 if run.stopped else 0
     print_peaks(motion.linearise(), peaks, linear_range.sentence)
     if clamped := commands.steering_input.counts[Verdict.CLAMPED]:
         print(f"{clamped} commands clamped to {settings.max_steering_angle:g} rad")
@@ -200,6 +207,7 @@ def _parser() -> Parser:
     add_manoeuvre_options(parser)
     add_log_options(parser)
     add_run_settings(parser)
+    add_format_option(parser)
     parser.add_argument("--log", metavar="FILE", help="steering log, in place of a manoeuvre")
     run = parser.add_argument_group("run")
     run.add_argument("--duration", type=float, metavar="S", help="default: 15, or to the end of the log")
