@@ -86,13 +86,6 @@ def test_the_model_follows_the_speed_topic(graph: Graph) -> None:
     assert speeds == [load_vehicle("interlink").speed, 15.0, 18.25, 1.0]
 
 
-def test_a_speed_and_a_speed_topic_exclude_each_other(graph: Graph) -> None:
-    arguments = ["--speed", "20", "--ros-args", "-p", "speed_source:=topic"]
-    status, _, errors = outcome(graph.command("sim", *arguments))
-    assert status == 2
-    assert "speed: 20.0: speed_source is topic" in errors
-
-
 def test_the_actuator_lags_behind_the_command(graph: Graph) -> None:
     process = started(graph, "steering_rate_limit:=0.5", "steering_time_constant:=0.1")
     graph.steering_publisher().publish(Float64(data=0.2))
