@@ -158,3 +158,27 @@ def test_the_speed_of_a_drive_is_published_beside_its_steering_and_in_step(
     until(lambda: len(angles(graph)) == 50, "the whole log")
     speeds = [message.data for message in graph.messages("/speed")]
     np.testing.assert_allclose(speeds, (36.0 + np.arange(50)) / 3.6)
+
+
+def test_what_the_node_made_of_a_drive_simulate_makes_of_its_recording_to_the_last_bit(
+    graph: Graph, tmp_path: Path
+) -> None:
+    path = tmp_path / "drive.csv"
+    rows = [f"{0.02 * row},{0.04 * math.sin(0.05 * row)},{15.0 + 0.03 * row}" for row in range(100)]
+    path.write_text("\n".join(["time,steering,speed", *rows]), encoding="utf-8")
+    process = graph.command("sim", "--ros-args", "-p", "speed_source:=topic")
+    until(lambda: graph.publishers("/joint_states") == 1, "the simulator")
+    assert outcome(graph.command("replay", str(path)))[0] == 0
+    stop(process)
+    run = run_directory(tmp_path)
+    arguments = ["--log", str(run), "--topic", "/steering_applied", "--output", "again"]
+    assert outcome(graph.command("simulate", *arguments))[0] == 0
+    made, again = recorded(run), recorded(tmp_path / "again")
+    speeds = [message.data for _, message in made["/speed"]]
+    assert len(speeds) > 50
+    assert speeds[-1] == pytest.approx(15.0 + 0.03 * 99)
+    for topic in (topic for topic, kind in OUTPUTS.items() if kind is Float64):
+        second = [message.data for _, message in again[topic]]
+        first = [message.data for _, message in made[topic]]
+        assert len(second) > 150
+        assert first[: len(second)] == second

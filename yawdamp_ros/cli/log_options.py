@@ -107,6 +107,11 @@ def chosen_log(
     )
 
 
+def speed_line(log: SteeringLog) -> str:
+    """What a log's speed is."""
+    return f"{len(log.speeds)} speeds of {min(log.speeds):.2f} to {max(log.speeds):.2f} m/s"
+
+
 def _read(path: str, options: argparse.Namespace, duration: float | None, *, measured: bool) -> Drive:
     recording = format_of(Path(path)).has_topics
     for option in ("column",) if recording else ("topic", "joint"):

@@ -15,7 +15,7 @@ from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.cli.log_options import add_log_options, chosen_log, log_options, steering_ratio
+from yawdamp_ros.cli.log_options import add_log_options, chosen_log, log_options, speed_line, steering_ratio
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     Parser,
@@ -52,6 +52,8 @@ DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
 DAY = 86400.0
 """Simulated time beyond which a log's length is not taken for what is wanted [s]."""
+Signal = tuple[Sequence[float], Sequence[float]]
+"""Times in s, and values that hold until the next."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -61,7 +63,7 @@ def main(arguments: Sequence[str]) -> int:
     log, settings = _settings(options, vehicle)
     grid = TimeGrid.of(settings.step_size, _sample_period(options))
     motion = make_motion(vehicle, settings.model, None, grid.step_size)
-    commands = Commands(settings, grid, motion, None if log is None else (log.times, log.angles))
+    commands = Commands(settings, grid, motion, *_played(log, options))
     if growing := growth(motion.linearise()):
         print(f"warning: {growing}", file=sys.stderr)
     output = Path(options.output or default_run_directory(vehicle.name))
@@ -91,6 +93,19 @@ def main(arguments: Sequence[str]) -> int:
         print(f"stopped at {run.time:g} s: {run.stopped.reason}")
     print(f"{'csv' if _to_csv(options) else 'run'}: {output}")
     return 1 if run.stopped else 0
+
+
+def _played(log: SteeringLog | None, options: argparse.Namespace) -> list[Signal]:
+    """Steering of a log and, unless a speed was asked for, its speed."""
+    if log is None:
+        return []
+    if not log.speeds:
+        return [(log.times, log.angles)]
+    if options.speed is not None:
+        print(f"--speed counts; the log's own is not followed: {speed_line(log)}")
+        return [(log.times, log.angles)]
+    print(f"following the log: {speed_line(log)}")
+    return [(log.times, log.angles), (log.speed_times, log.speeds)]
 
 
 def _carry_out(run: Run, samples: int, stop: StopRequest) -> None:

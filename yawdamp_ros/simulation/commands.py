@@ -1,5 +1,6 @@
 """Commands on their way to the model: taken or refused, limited, timed out, lagged."""
 
+from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -31,6 +32,8 @@ class Commands:
         That they are for.
     log : (sequence of float, sequence of float), optional
         Times in s and commanded angles in rad, each in force until the next.
+    speeds : (sequence of float, sequence of float), optional
+        Times in s and speeds in m/s to be followed, each in force until the next.
 
     Attributes
     ----------
@@ -49,6 +52,7 @@ class Commands:
         grid: TimeGrid,
         motion: Motion,
         log: tuple[Sequence[float], Sequence[float]] | None = None,
+        speeds: tuple[Sequence[float], Sequence[float]] | None = None,
     ) -> None:
         self.steering_input = SteeringInput(ratio=settings.steering_ratio, **_limits(settings, grid))
         self.speed_input = SpeedInput(motion.speed)
@@ -62,6 +66,7 @@ class Commands:
         self._reset = False
         self._received: list[Command] = []
         self._command = self._command_source(settings, log)
+        self._speeds = deque(zip(*speeds, strict=True)) if speeds else deque[tuple[float, float]]()
 
     def steer(self, angle: float, age: float | None = None, message: object = None) -> Verdict:
         """Accept or reject a steering command, which acts from the next step on.
@@ -95,10 +100,23 @@ class Commands:
         if self._reset:
             self._reset = False
             found.append(AppliedInput(steps[0], "reset", 0.0))
-        if self.speed_input.speed != self._speed:
-            self._speed = self.speed_input.speed
-            found.append(AppliedInput(steps[0], "speed", self._speed))
+        found += self._new_speed(steps[0])
+        while self._speeds and self._speeds[0][0] <= self._grid.seconds(steps[-1]):
+            due, speed = self._speeds.popleft()
+            self.speed_input.offer(speed)
+            found += self._new_speed(max(self._step_at(due), steps[0]))
         return found
+
+    def _new_speed(self, step: int) -> list[AppliedInput]:
+        if self.speed_input.speed == self._speed:
+            return []
+        self._speed = self.speed_input.speed
+        return [AppliedInput(step, "speed", self._speed)]
+
+    def _step_at(self, time: float) -> int:
+        """First step at a time in s or after it."""
+        step = nanoseconds(time) // self._grid.step_ns
+        return step if self._grid.seconds(step) >= time else step + 1
 
     def steering(self, steps: range) -> Sequence[float]:
         """See `Source`."""
