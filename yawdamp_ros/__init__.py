@@ -13,6 +13,7 @@ if TYPE_CHECKING:
         analysis,
         drives,
         dynamics,
+        library,
         logs,
         manoeuvres,
         nonlinear,
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
         vehicle,
     )
     from yawdamp_ros.dynamics import linear_model
-    from yawdamp_ros.simulation import simulate
+    from yawdamp_ros.library import load_run, simulate
+    from yawdamp_ros.logs.drive_formats import load_drive
     from yawdamp_ros.vehicle import load_vehicle
 
 __version__ = VERSION
@@ -32,7 +34,10 @@ __all__ = [
     "analysis",
     "drives",
     "dynamics",
+    "library",
     "linear_model",
+    "load_drive",
+    "load_run",
     "load_vehicle",
     "logs",
     "manoeuvres",
@@ -48,13 +53,15 @@ __getattr__ = load_on_use(
     __name__,
     {
         "yawdamp_ros.dynamics": ("linear_model",),
-        "yawdamp_ros.simulation": ("simulate",),
+        "yawdamp_ros.library": ("load_run", "simulate"),
+        "yawdamp_ros.logs.drive_formats": ("load_drive",),
         "yawdamp_ros.vehicle": ("load_vehicle",),
     },
     (
         "analysis",
         "drives",
         "dynamics",
+        "library",
         "logs",
         "manoeuvres",
         "nonlinear",

@@ -27,6 +27,8 @@ def test_a_csv_has_the_promised_columns_and_full_precision(tmp_path: Path) -> No
         ),
         "articulation_1",
         "articulation_2",
+        "speed",
+        *(f"{unit}/{axis}" for unit in ("truck", "trailer_1", "trailer_2") for axis in ("x", "y")),
     ]
     table = np.array(rows, dtype=float)
     response = simulate(load_vehicle("interlink"), LaneChange(), 5.0)
@@ -35,7 +37,10 @@ def test_a_csv_has_the_promised_columns_and_full_precision(tmp_path: Path) -> No
     np.testing.assert_array_equal(table[:, 2:11:3], response.yaw)
     np.testing.assert_array_equal(table[:, 3:11:3], response.yaw_rate)
     np.testing.assert_array_equal(table[:, 4:11:3], response.lateral_acceleration)
-    np.testing.assert_array_equal(table[:, 11:], response.articulation)
+    np.testing.assert_array_equal(table[:, 11:13], response.articulation)
+    assert set(table[:, 13]) == {load_vehicle("interlink").speed}
+    np.testing.assert_array_equal(table[:, 14::2], response.x)
+    np.testing.assert_array_equal(table[:, 15::2], response.y)
 
 
 def test_a_run_directory_holds_what_the_csv_holds(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Runs as CSV files: one row a sample, SI units, full double precision."""
 
 import csv
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,11 @@ import numpy as np
 from yawdamp_ros.logs import LogError
 from yawdamp_ros.runs.outputs import available, columns
 from yawdamp_ros.stepping import Motion, Sample, TimeGrid
+
+
+def ground_columns(unit_names: Sequence[str]) -> list[str]:
+    """Last columns of a run: speed of the lead unit, and where every unit is."""
+    return ["speed", *(f"{unit}/{axis}" for unit in unit_names for axis in ("x", "y"))]
 
 
 class ResponseCsv:
@@ -36,13 +42,18 @@ class ResponseCsv:
         except OSError as error:
             raise LogError(path, f"cannot be written: {error.strerror}") from error
         self._writer = csv.writer(self._file, lineterminator="\n")
-        self._writer.writerow(["time", *(name for name, _, _ in self._columns)])
+        ground = ground_columns(motion.vehicle.unit_names)
+        self._writer.writerow(["time", *(name for name, _, _ in self._columns), *ground])
 
     def write(self, sample: Sample) -> None:
         """Append a sample of one or more instants."""
         instants = np.size(sample.step)
         values = {output.name: output.values(sample) for _, output, _ in self._columns}
-        rows = np.empty((instants, 1 + len(self._columns)))
+        path = np.stack([sample.x, sample.y], axis=-1).reshape(instants, -1)
+        speed = sample.velocity[..., 0].real.reshape(instants, 1)
+        known = 1 + len(self._columns)
+        rows = np.empty((instants, known + 1 + path.shape[1]))
+        rows[:, known:] = np.hstack([speed, path])
         rows[:, 0] = self._grid.seconds(sample.step)
         for place, (_, output, index) in enumerate(self._columns, 1):
             rows[:, place] = np.reshape(values[output.name], (instants, -1))[:, index]

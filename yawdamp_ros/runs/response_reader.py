@@ -1,15 +1,17 @@
 """Runs read back from the CSV files that `simulate` writes."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 
+from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs import LogError
 from yawdamp_ros.logs.csv_file import csv_reader
 from yawdamp_ros.runs import outputs
+from yawdamp_ros.runs.response_csv import ground_columns
 from yawdamp_ros.stepping import Response
 
 LARGEST_VALUE = 1e30
@@ -29,7 +31,7 @@ def read_response_csv(path: Path) -> Response:
     Returns
     -------
     Response
-        With x and y not a number, for such a file holds no paths.
+        With x and y not a number where the file holds no paths.
 
     Raises
     ------
@@ -63,7 +65,7 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
         for key, names in known.items()
         if places.keys() >= set(names)
     }
-    unknown = np.full((len(table), len(units)), np.nan)
+    ground = _ground(table, places, units)
     return Response(
         unit_names=units,
         time=table[:, places["time"]],
@@ -72,10 +74,18 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
         yaw_rate=found["yaw_rate"],
         lateral_acceleration=found["lateral_acceleration"],
         articulation=found["articulation"],
-        x=unknown,
-        y=unknown,
+        x=ground[:, ::2],
+        y=ground[:, 1::2],
         extra={key: values for key, values in found.items() if key not in needed},
     )
+
+
+def _ground(table: FloatArray, places: Mapping[str, int], units: Sequence[str]) -> FloatArray:
+    """Columns x and y of every unit; not a number where the file holds no paths."""
+    names = ground_columns(units)[1:]
+    if not places.keys() >= set(names):
+        return np.full((len(table), len(names)), np.nan)
+    return np.asarray(table[:, [places[name] for name in names]], dtype=np.float64)
 
 
 def _numbers(row: list[str], header: list[str], line: int, path: Path) -> list[float]:
