@@ -20,6 +20,7 @@ $(VENV)/ready: requirements.lock setup.py setup.cfg pyproject.toml $(wildcard re
 	@echo "Installing into $(VENV) (once, about a minute) ..."
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@$(BIN)/python -m yawdamp_ros.nonlinear.warm_up
 	@touch $@
 
 sim: setup  ## drive the interlink through a lane change for 15 s and record it

@@ -53,6 +53,7 @@ setup(
         "plotly>=5.18",  # pages of curves to zoom into, which load nothing from elsewhere
     ],
     extras_require={
+        "fast": ["numba>=0.59"],  # compiles the nonlinear model, which runs without, a hundred times slower
         "analysis": ["control>=0.10"],  # root locus, Bode and Nyquist by the field's own library
         "bags": ["rosbags"],  # reads rosbag2 recordings with sqlite3 storage
         "cluster": ["distributed>=2024.5"],  # sweeps on other machines

@@ -9,6 +9,7 @@ from yawdamp_ros.vehicle import Vehicle
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
+IntArray = npt.NDArray[np.int64]
 
 
 def cg_rows(vehicle: Vehicle) -> FloatArray:

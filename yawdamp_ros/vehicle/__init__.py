@@ -1,5 +1,6 @@
 """What a vehicle combination is, and how one is read from a file."""
 
+from yawdamp_ros.vehicle.complete import Assumed, assumed, complete
 from yawdamp_ros.vehicle.errors import VehicleError
 from yawdamp_ros.vehicle.load import (
     VehicleSource,
@@ -12,23 +13,35 @@ from yawdamp_ros.vehicle.load import (
 )
 from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Axle, Unit, Vehicle, unstacked
 from yawdamp_ros.vehicle.plausibility import Suspicion, suspicions
+from yawdamp_ros.vehicle.statics import StaticLoads, Supports, static_loads, supports
+from yawdamp_ros.vehicle.tir import MagicFormula, parse_tir, read_tir
 from yawdamp_ros.vehicle.tyres import fancher_stiffness, printed_stiffness
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "Assumed",
     "Axle",
+    "MagicFormula",
+    "StaticLoads",
+    "Supports",
     "Suspicion",
     "Unit",
     "Vehicle",
     "VehicleError",
     "VehicleSource",
+    "assumed",
     "builtin_vehicles",
+    "complete",
     "examined_vehicle",
     "fancher_stiffness",
     "load_stack",
     "load_vehicle",
+    "parse_tir",
     "parse_vehicle",
     "printed_stiffness",
+    "read_tir",
+    "static_loads",
+    "supports",
     "suspicions",
     "unstacked",
     "vehicle_text",

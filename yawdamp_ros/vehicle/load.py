@@ -12,7 +12,7 @@ import numpy.typing as npt
 from yawdamp_ros.files import read_text
 from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
-from yawdamp_ros.vehicle.loads import added_axle_loads, loaded
+from yawdamp_ros.vehicle.loads import added_axle_loads, loaded, static_load
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 from yawdamp_ros.vehicle.plausibility import check_plausible, warning_lines
 from yawdamp_ros.vehicle.tyres import fancher_stiffness
@@ -28,6 +28,18 @@ LARGEST_FILE = 1 << 18
 
 MOST_VALUES = 10_000
 """Keys and values of a vehicle file."""
+
+VEHICLE_KEYS = ("friction", "drag_area", "drag_height")
+AXLE_KEYS = (
+    "track_width", "relaxation_length", "roll_stiffness", "roll_damping", "rolling_resistance", "driven",
+    "brake_share",
+)  # fmt: skip
+UNIT_KEYS = (
+    "cg_height", "roll_inertia", "roll_axis_height", "abs", "hitch_height", "hitch_roll_stiffness",
+    "hitch_roll_damping", "hitch_friction", "hitch_damping", "max_articulation", "front_overhang",
+    "rear_overhang", "width", "height",
+)  # fmt: skip
+"""Optional keys of the vehicle file that are the model's fields as they are."""
 
 
 class VehicleSource(NamedTuple):
@@ -277,50 +289,73 @@ def _build(data: dict[str, Any], source: str) -> Vehicle:
         name=data["name"],
         speed=_number(data["speed"]),
         units=tuple(
-            _build_unit(unit, stiffnesses)
-            for unit, stiffnesses in zip(data["units"], _cornering_stiffnesses(data, source), strict=True)
+            _build_unit(unit, index, added, source)
+            for index, (unit, added) in enumerate(
+                zip(data["units"], _added_loads(data["units"], source), strict=True)
+            )
         ),
+        **_given(data, VEHICLE_KEYS),
     )
 
 
-def _build_unit(unit: dict[str, Any], stiffnesses: Sequence[Any]) -> Unit:
+def _build_unit(unit: dict[str, Any], index: int, added: Sequence[Any], source: str) -> Unit:
     mass, yaw_inertia, shift = loaded(unit)
 
     def from_cg(position: Any) -> Any:  # noqa: ANN401 - a number, or one for each vehicle of a stack
         return None if position is None else _number(position - shift)
 
+    def build_axle(place: int, axle: dict[str, Any]) -> Axle:
+        load = static_load(axle, added[place])
+        return Axle(
+            from_cg(axle["position"]),
+            _number(_stiffness(axle, added[place], f"units.{index}.axles.{place}", source)),
+            steered=axle.get("steered", False),
+            tyres=axle.get("tyres"),
+            static_load=None if load is None else _number(load),
+            tyre=_tyre(axle.get("tyre"), source),
+            **_given(axle, AXLE_KEYS),
+        )
+
     return Unit(
         name=unit["name"],
         mass=_number(mass),
         yaw_inertia=_number(yaw_inertia),
-        axles=tuple(
-            Axle(from_cg(axle["position"]), _number(stiffness), steered=axle.get("steered", False))
-            for axle, stiffness in zip(unit["axles"], stiffnesses, strict=True)
-        ),
+        axles=tuple(build_axle(place, axle) for place, axle in enumerate(unit["axles"])),
         front_hitch=from_cg(unit.get("front_hitch")),
         rear_hitch=from_cg(unit.get("rear_hitch")),
+        **_given(unit, UNIT_KEYS),
     )
 
 
-def _cornering_stiffnesses(data: dict[str, Any], source: str) -> list[list[Any]]:
-    """Of every axle of every unit, those by tyre load with what the loads of the file add."""
-    units = data["units"]
-    by_load = any("tyre_load" in axle for unit in units for axle in unit["axles"])
-    added = None
+def _given(data: dict[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    """Values of the optional keys of a record, None where there is none."""
+    return {
+        key: value if value is None or isinstance(value, bool) else _number(value)
+        for key, value in ((key, data.get(key)) for key in keys)
+    }
+
+
+def _tyre(tyre: str | None, source: str) -> Any:  # noqa: ANN401
+    if tyre is None or not tyre.endswith(".tir"):
+        return tyre
+    from yawdamp_ros.vehicle.tir import read_tir  # noqa: PLC0415 - few vehicles have one
+
+    return read_tir(Path(source).parent / tyre)
+
+
+def _added_loads(units: Sequence[dict[str, Any]], source: str) -> list[list[Any]]:
+    """Of every axle of every unit, the load that the loads of the file add to what the file gives."""
+    by_load = any("tyre_load" in axle or "static_load" in axle for unit in units for axle in unit["axles"])
     if by_load and any(unit.get("load") for unit in units):
         _check_supports(units, source)
-        added = added_axle_loads(units)
-    return [
-        [
-            _tyres_stiffness(
-                axle, added[index][place] if added else 0.0, f"units.{index}.axles.{place}", source
-            )
-            if "tyre_load" in axle
-            else axle["cornering_stiffness"]
-            for place, axle in enumerate(unit["axles"])
-        ]
-        for index, unit in enumerate(units)
-    ]
+        return added_axle_loads(units)
+    return [[0.0] * len(unit["axles"]) for unit in units]
+
+
+def _stiffness(axle: dict[str, Any], added: Any, key: str, source: str) -> Any:  # noqa: ANN401
+    if "tyre_load" in axle:
+        return _tyres_stiffness(axle, added, key, source)
+    return axle["cornering_stiffness"]
 
 
 def _tyres_stiffness(axle: dict[str, Any], added: Any, key: str, source: str) -> Any:  # noqa: ANN401
@@ -369,6 +404,7 @@ def _check_combination(data: dict[str, Any], source: str) -> None:
                 source, f"{key}.rear_hitch", f"missing: {name} tows the next unit and needs one"
             )
         _check_lengths(unit, key, source)
+        _check_static_loads(unit, key, source)
     names = [unit["name"] for unit in units]
     name, count = Counter(names).most_common(1)[0]
     if count > 1:
@@ -377,6 +413,16 @@ def _check_combination(data: dict[str, Any], source: str) -> None:
     if not any(axle.get("steered", False) for axle in units[0]["axles"]):
         raise VehicleError(
             source, "units.0.axles", "no axle of the lead unit is steered; expected steered: true"
+        )
+
+
+def _check_static_loads(unit: dict[str, Any], key: str, source: str) -> None:
+    given = ["static_load" in axle or "tyre_load" in axle for axle in unit["axles"]]
+    if any("static_load" in axle for axle in unit["axles"]) and not all(given):
+        raise VehicleError(
+            source,
+            f"{key}.axles.{given.index(False)}.static_load",
+            "missing: expected on all axles of a unit or none",
         )
 
 

@@ -126,6 +126,28 @@ def static_axle_loads(vehicle: Vehicle) -> list[list[float]]:
     return added_axle_loads(units)
 
 
+def static_load(axle: dict[str, Any], added: Number) -> Number | None:
+    """Load at rest that a vehicle file gives for an axle.
+
+    Parameters
+    ----------
+    axle : dict
+        Of the file.
+    added : float
+        What the loads of the file add [N].
+
+    Returns
+    -------
+    float or None
+        In N: the ``static_load``, else that of the tyres, else None.
+    """
+    if "static_load" in axle:
+        return axle["static_load"] + added
+    if "tyre_load" in axle:
+        return axle["tyre_load"] * axle["tyres"] + added
+    return None
+
+
 def _supports(unit: dict[str, Any], *, towed: bool) -> tuple[list[int], list[int]]:
     """Axles of the two groups that a unit rests on; a towed one has its hitch in place of the first."""
     everything = list(range(len(unit["axles"])))

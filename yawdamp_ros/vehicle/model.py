@@ -1,16 +1,25 @@
 """A combination as plain records: SI units, positions from the unit's own centre of gravity.
 
+Fields that may be None serve the nonlinear model alone; the linear ones do not read them.
+
 A `Vehicle` some of whose numbers are arrays of one length is a stack of vehicles, alike but for these:
 `load_stack` makes one, and the equations of motion of all are assembled at once.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from itertools import pairwise
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+if TYPE_CHECKING:
+    from yawdamp_ros.vehicle.tir import MagicFormula
+
 STANDARD_GRAVITY = 9.80665
 """In m/s^2."""
+
+
+Record = TypeVar("Record", "Axle", "Unit", "Vehicle")
 
 
 @dataclass(frozen=True)
@@ -25,11 +34,38 @@ class Axle:
         Of the whole axle, in N/rad, positive.
     steered : bool
         Whether the road-wheel steer angle acts on it.
+    tyres : int or None
+        Number of tyres where the stiffness comes from the load on each (`fancher_stiffness`).
+    static_load : float or None
+        Of the axle at rest [N].
+    track_width : float or None
+        Between the middles of the left and the right tyres [m].
+    tyre : str, MagicFormula or None
+        ``brush``, ``linear`` or the coefficients of a .tir file.
+    relaxation_length : float or None
+        In m.
+    roll_stiffness, roll_damping : float or None
+        Of suspension and tyres [N m/rad, N m s/rad].
+    rolling_resistance : float or None
+        Force over load.
+    driven : bool or None
+    brake_share : float or None
+        Share of the combination's braking force, relative to the other axles'.
     """
 
     position: float
     cornering_stiffness: float
     steered: bool = False
+    tyres: int | None = None
+    static_load: float | None = None
+    track_width: float | None = None
+    tyre: "str | MagicFormula | None" = None
+    relaxation_length: float | None = None
+    roll_stiffness: float | None = None
+    roll_damping: float | None = None
+    rolling_resistance: float | None = None
+    driven: bool | None = None
+    brake_share: float | None = None
 
 
 @dataclass(frozen=True)
@@ -47,6 +83,24 @@ class Unit:
     axles : tuple of Axle
     front_hitch, rear_hitch : float or None
         Distance from the centre of gravity in m, forward positive; None where there is none.
+    cg_height, roll_axis_height : float or None
+        Above the road [m].
+    roll_inertia : float or None
+        About the longitudinal axis through the centre of gravity [kg m^2].
+    abs : bool or None
+        Whether an anti-lock system keeps the wheels turning.
+    hitch_height : float or None
+        Of the rear hitch above the road [m].
+    hitch_roll_stiffness, hitch_roll_damping : float or None
+        Of the rear hitch [N m/rad, N m s/rad]; 0 where it does not couple roll.
+    hitch_friction, hitch_damping : float or None
+        Coulomb [N m] and viscous [N m s/rad] yaw friction of the rear hitch.
+    max_articulation : float or None
+        Articulation of the rear hitch at which the units touch [rad].
+    front_overhang, rear_overhang : float or None
+        Body before the foremost and behind the rearmost axle or hitch [m], for drawings and swept paths.
+    width, height : float or None
+        Of the body [m], for drawings and swept paths.
     """
 
     name: str
@@ -55,6 +109,20 @@ class Unit:
     axles: tuple[Axle, ...]
     front_hitch: float | None = None
     rear_hitch: float | None = None
+    cg_height: float | None = None
+    roll_inertia: float | None = None
+    roll_axis_height: float | None = None
+    abs: bool | None = None
+    hitch_height: float | None = None
+    hitch_roll_stiffness: float | None = None
+    hitch_roll_damping: float | None = None
+    hitch_friction: float | None = None
+    hitch_damping: float | None = None
+    max_articulation: float | None = None
+    front_overhang: float | None = None
+    rear_overhang: float | None = None
+    width: float | None = None
+    height: float | None = None
 
 
 @dataclass(frozen=True)
@@ -68,11 +136,22 @@ class Vehicle:
         The longitudinal speed at which it is looked at unless another is asked for, in m/s.
     units : tuple of Unit
         Each towed by the one before it.
+    friction : float or None
+        Of tyres on the road.
+    drag_area : float or None
+        Drag coefficient times frontal area [m^2].
+    drag_height : float or None
+        Of the air drag above the road [m].
+
+    Fields that are None are not given in the vehicle's file; `complete` fills them with documented defaults.
     """
 
     name: str
     speed: float
     units: tuple[Unit, ...]
+    friction: float | None = None
+    drag_area: float | None = None
+    drag_height: float | None = None
 
     @property
     def unit_names(self) -> tuple[str, ...]:
@@ -100,28 +179,14 @@ class Vehicle:
 def unstacked(stack: Vehicle, index: int) -> Vehicle:
     """One vehicle of a stack, its numbers floats."""
 
-    def pick(value: float) -> float:
+    def pick(value: Any) -> Any:  # noqa: ANN401 - of a record's field
         return float(value[index]) if isinstance(value, np.ndarray) else value
 
-    def optional(value: float | None) -> float | None:
-        return None if value is None else pick(value)
+    def picked(record: Record) -> Record:
+        numbers = {each.name: pick(getattr(record, each.name)) for each in fields(record)}
+        return replace(record, **numbers)
 
     units = tuple(
-        replace(
-            unit,
-            mass=pick(unit.mass),
-            yaw_inertia=pick(unit.yaw_inertia),
-            axles=tuple(
-                replace(
-                    axle,
-                    position=pick(axle.position),
-                    cornering_stiffness=pick(axle.cornering_stiffness),
-                )
-                for axle in unit.axles
-            ),
-            front_hitch=optional(unit.front_hitch),
-            rear_hitch=optional(unit.rear_hitch),
-        )
-        for unit in stack.units
+        replace(picked(unit), axles=tuple(picked(axle) for axle in unit.axles)) for unit in stack.units
     )
-    return replace(stack, speed=pick(stack.speed), units=units)
+    return replace(picked(stack), units=units)

@@ -1,0 +1,22 @@
+"""The nonlinear model: exact chain, saturating tyres, roll, and what combinations do at their limits."""
+
+from yawdamp_ros.nonlinear.compiled import COMPILED
+from yawdamp_ros.nonlinear.dynamics import NonlinearDynamics, Steps
+from yawdamp_ros.nonlinear.errors import NonlinearError
+from yawdamp_ros.nonlinear.events import Event, EventKind
+from yawdamp_ros.nonlinear.layout import InputLayout, StateLayout
+from yawdamp_ros.nonlinear.outputs import Outputs
+from yawdamp_ros.nonlinear.settings import Settings
+
+__all__ = [
+    "COMPILED",
+    "Event",
+    "EventKind",
+    "InputLayout",
+    "NonlinearDynamics",
+    "NonlinearError",
+    "Outputs",
+    "Settings",
+    "StateLayout",
+    "Steps",
+]

@@ -1,0 +1,252 @@
+"""The nonlinear model of one vehicle behind a small interface."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from yawdamp_ros.dynamics.kinematics import FloatArray, IntArray
+from yawdamp_ros.nonlinear.errors import NonlinearError
+from yawdamp_ros.nonlinear.events import NEVER, Event, event_count, named_events
+from yawdamp_ros.nonlinear.layout import FRICTION_LEFT, FRICTION_RIGHT, SPEED, InputLayout, StateLayout
+from yawdamp_ros.nonlinear.motion import DIVERGED, DONE, rates, rk4_steps
+from yawdamp_ros.nonlinear.outputs import Outputs, empty_outputs, write_outputs
+from yawdamp_ros.nonlinear.parameters import parameters
+from yawdamp_ros.nonlinear.records import NOMINAL_FRICTION, Parameters, Work, make_work
+from yawdamp_ros.nonlinear.settings import Settings
+from yawdamp_ros.vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class Steps:
+    """What `NonlinearDynamics.steps` gives.
+
+    Attributes
+    ----------
+    states : ndarray, shape (k, m)
+        The state after every ``every`` steps.
+    taken : int
+        Steps taken.
+    rolled_over : str
+        Name of the unit that rolled over, at which the motion ends; empty otherwise.
+    events : tuple of Event
+        That began in these steps and not before.
+    """
+
+    states: FloatArray
+    taken: int
+    rolled_over: str
+    events: tuple[Event, ...]
+
+
+@dataclass(frozen=True)
+class NonlinearDynamics:
+    """A vehicle's equations of motion; every method is a function of its arguments alone.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What it does not give is assumed (`yawdamp_ros.vehicle.assumed` lists it).
+    settings : Settings
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> dynamics = NonlinearDynamics(load_vehicle("interlink"))
+    >>> state, inputs = dynamics.initial_state(22.2), dynamics.inputs(steering=0.02, speed=22.2)
+    >>> run = dynamics.steps(state, inputs, dt=0.001, count=1000, every=100)
+    >>> run.states.shape
+    (10, 47)
+    >>> bool(dynamics.outputs(run.states, inputs).yaw_rate[-1, 0] > 0.05)  # to the left, rad/s
+    True
+    """
+
+    vehicle: Vehicle
+    settings: Settings = field(default_factory=Settings)
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """The flat record of the vehicle and the settings."""
+        return parameters(self.vehicle, self.settings)
+
+    @cached_property
+    def layout(self) -> StateLayout:
+        """Slices of the state."""
+        return StateLayout(len(self.vehicle.units), sum(len(unit.axles) for unit in self.vehicle.units))
+
+    @cached_property
+    def input_layout(self) -> InputLayout:
+        """Slices of the input."""
+        return InputLayout(self.layout.units, self.layout.axles)
+
+    def inputs(
+        self,
+        steering: float = 0.0,
+        *,
+        acceleration: float = 0.0,
+        speed: float | None = None,
+        friction: float | tuple[float, float] | None = None,
+        grade: float = 0.0,
+        crossfall: float = 0.0,
+    ) -> FloatArray:
+        """Make an input vector.
+
+        Parameters
+        ----------
+        steering : float
+            Road-wheel steer angle [rad].
+        acceleration : float
+            Demanded of the combination [m/s^2]: the driven axles drive, or all brakes brake.
+        speed : float, optional
+            That the controller holds [m/s]; without it nothing does.
+        friction : float or (float, float), optional
+            Of the road, or of the left and the right wheels; the vehicle's own unless given.
+        grade, crossfall : float
+            Rise of the road along X and along Y.
+
+        Returns
+        -------
+        ndarray
+            By `input_layout`, whose slices hold the demands on single axles and units, 0 here.
+        """
+        made = np.zeros(self.input_layout.size)
+        own = self.parameters.scalars[NOMINAL_FRICTION] if friction is None else friction
+        left, right = own if isinstance(own, tuple) else (own, own)
+        made[: SPEED + 1] = steering, acceleration, np.nan if speed is None else speed
+        made[FRICTION_LEFT], made[FRICTION_RIGHT] = left, right
+        made[FRICTION_RIGHT + 1 : FRICTION_RIGHT + 3] = grade, crossfall
+        return made
+
+    def initial_state(self, speed: float) -> FloatArray:
+        """State of straight motion at a speed [m/s], at the origin along X; negative is backwards."""
+        state = np.zeros(self.layout.size)
+        state[self.layout.velocity.start] = speed
+        state[self.layout.carcass] = -np.sign(speed)
+        return state
+
+    def derivatives(self, state: FloatArray, inputs: FloatArray) -> FloatArray:
+        """Time derivative of a state.
+
+        Parameters
+        ----------
+        state, inputs : ndarray
+            By `layout` and `input_layout`.
+
+        Returns
+        -------
+        ndarray
+        """
+        out = np.zeros(self.layout.size)
+        with np.errstate(all="ignore"):
+            rates(np.ascontiguousarray(state, float), inputs, self.parameters, self._work(), out)
+        return out
+
+    def no_events(self) -> IntArray:
+        """Make the record of events of a run in which none has happened."""
+        return np.full(event_count(self.layout.units, self.layout.axles), NEVER)
+
+    def steps(
+        self,
+        state: FloatArray,
+        inputs: FloatArray,
+        dt: float,
+        count: int | None = None,
+        every: int = 1,
+        first: int = 0,
+        event_steps: IntArray | None = None,
+    ) -> Steps:
+        """Take Runge-Kutta steps of fourth order.
+
+        The motion does not depend on how the steps are divided among calls.
+
+        Parameters
+        ----------
+        state : ndarray
+            Where they start; it is not changed.
+        inputs : ndarray, shape (k,) or (count, k)
+            Held over all steps, or a row for each.
+        dt : float
+            In s.
+        count : int, optional
+            Number of steps, a multiple of ``every``; the rows of the inputs unless given.
+        every : int
+            Steps between the states that are kept.
+        first : int
+            Number of the first step in the run, for the events.
+        event_steps : ndarray of int, optional
+            The run's record of events (`no_events`), brought up to date; new unless given.
+
+        Returns
+        -------
+        Steps
+
+        Raises
+        ------
+        NonlinearError
+            If the motion diverges: it names the step and the unit.
+        """
+        rows = np.ascontiguousarray(np.atleast_2d(inputs), float)
+        count = len(rows) if count is None else count
+        if count % every or len(rows) not in {1, count}:
+            message = (
+                f"{count} steps: expected a multiple of {every} and a row of inputs for each or one for all"
+            )
+            raise NonlinearError(message)
+        noted = self.no_events() if event_steps is None else event_steps
+        before = noted.copy()
+        current = np.array(state, float)
+        samples = np.zeros((count // every, self.layout.size))
+        stages = np.zeros((3, self.layout.size))
+        with np.errstate(all="ignore"):
+            taken, status, place = rk4_steps(
+                current, rows, dt, self.parameters, self._work(), stages, samples, every, first, noted
+            )
+        if status == DIVERGED:
+            raise NonlinearError(self._divergence(first + taken, dt, place))
+        names = self.vehicle.unit_names
+        begun = np.where(before == NEVER, noted, NEVER)
+        axles = tuple(len(unit.axles) for unit in self.vehicle.units)
+        return Steps(
+            samples[: taken // every],
+            taken,
+            "" if status == DONE else names[place],
+            tuple(named_events(begun, names, axles)),
+        )
+
+    def outputs(self, states: FloatArray, inputs: FloatArray) -> Outputs:
+        """What is looked at of some states.
+
+        Parameters
+        ----------
+        states : ndarray, shape (k, m)
+        inputs : ndarray, shape (j,) or (k, j)
+            One for all, or a row for each.
+
+        Returns
+        -------
+        Outputs
+        """
+        rows = np.broadcast_to(np.atleast_2d(inputs), (len(states), self.input_layout.size))
+        made = empty_outputs(len(states), self.layout.units, self.layout.axles)
+        work, out = self._work(), np.zeros(self.layout.size)
+        with np.errstate(all="ignore"):
+            for place, (state, row) in enumerate(zip(states, rows, strict=True)):
+                rates(np.ascontiguousarray(state), np.ascontiguousarray(row), self.parameters, work, out)
+                write_outputs(made, place, state, self.parameters, work)
+        return made
+
+    def _work(self) -> Work:
+        return make_work(self.layout.units, self.layout.axles)
+
+    def _divergence(self, step: int, dt: float, place: int) -> str:
+        p = self.parameters
+        if place < len(self.layout.unit_of):
+            unit = self.layout.unit_of[place]
+        else:
+            axle = (place - len(self.layout.unit_of)) // 2 % self.layout.axles
+            unit = int(np.searchsorted(p.first_axle, axle, side="right")) - 1
+        name = self.vehicle.unit_names[unit]
+        return (
+            f"{self.vehicle.name}: the motion of {name} diverges at step {step} ({step * dt:.6g} s): "
+            f"expected a step shorter than {dt:g} s, or softer numbers in the vehicle file"
+        )

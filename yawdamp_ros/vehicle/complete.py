@@ -1,0 +1,219 @@
+"""Documented defaults of what the nonlinear model needs and a vehicle file need not give.
+
+They are those of laden heavy vehicles.
+
+Sources, by the short names that `Assumed.source` holds:
+
+- Factbook: Fancher, Ervin, Winkler, Gillespie, A factbook of the mechanical properties of the components for
+  single-unit and articulated heavy trucks, UMTRI-86-12, 1986: the range that it tabulates.
+- Sampson: Active roll control of articulated heavy vehicles, University of Cambridge, 2000, appendix.
+- Pacejka: Tire and vehicle dynamics, 3rd edition, 2012.
+- ISO 1726, ISO 28580, 96/53/EC, UN R13: the standard or the regulation.
+- statics: from masses and positions.
+- linear: as the linear model assumes it.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
+from yawdamp_ros.vehicle.statics import static_loads
+
+LIGHT_UNIT = 6000.0
+"""Mass up to which a towed unit counts as a dolly [kg]."""
+
+
+class Assumed(NamedTuple):
+    """A value that the vehicle file does not give.
+
+    Attributes
+    ----------
+    key : str
+        As ``--set`` takes it.
+    value : float, bool or str
+    unit : str
+        Of the value; empty where there is none.
+    source : str
+        See the module.
+    """
+
+    key: str
+    value: float | bool | str
+    unit: str
+    source: str
+
+
+class Default(NamedTuple):
+    """How a value is found that is not given: its unit, its source, and the rule."""
+
+    unit: str
+    source: str
+    rule: Callable[..., Any]
+
+
+def _is_dolly(unit: Unit) -> bool:
+    return unit.front_hitch is not None and unit.mass <= LIGHT_UNIT
+
+
+def _couples_roll(unit: Unit) -> bool:
+    """Whether the rear hitch lies over the axles, where fifth wheels do, and not behind them."""
+    return unit.rear_hitch is not None and unit.rear_hitch >= min(axle.position for axle in unit.axles)
+
+
+VEHICLE_DEFAULTS: Mapping[str, Default] = MappingProxyType(
+    {
+        "friction": Default("", "Factbook, dry road", lambda _: 0.8),
+        "drag_area": Default("m^2", "drag coefficient 0.6 on 10 m^2", lambda _: 6.0),
+        "drag_height": Default("m", "middle of a front 4 m high", lambda _: 2.0),
+    }
+)
+UNIT_DEFAULTS: Mapping[str, Default] = MappingProxyType(
+    {
+        "cg_height": Default(
+            "m",
+            "Factbook: tractor 1.1, laden 2.0, dolly 0.9",
+            lambda unit: 1.1 if unit.front_hitch is None else 0.9 if _is_dolly(unit) else 2.0,
+        ),
+        "roll_inertia": Default("kg m^2", "Sampson: radius of gyration 0.8 m", lambda unit: 0.64 * unit.mass),
+        "roll_axis_height": Default("m", "Factbook", lambda _: 0.6),
+        "abs": Default("", "UN R13", lambda _: True),
+        "hitch_height": Default(
+            "m",
+            "ISO 1726: fifth wheel 1.25; drawbar eye 0.8",
+            lambda unit: 1.25 if _couples_roll(unit) else 0.8,
+        ),
+        "hitch_roll_stiffness": Default(
+            "N m/rad",
+            "Sampson: fifth wheel; a drawbar eye has none",
+            lambda unit: 3.0e6 if _couples_roll(unit) else 0.0,
+        ),
+        "hitch_roll_damping": Default(
+            "N m s/rad", "1/50 s of the stiffness", lambda unit: 0.02 * unit.hitch_roll_stiffness
+        ),
+        "hitch_friction": Default("N m", "linear", lambda _: 0.0),
+        "hitch_damping": Default("N m s/rad", "linear", lambda _: 0.0),
+        "max_articulation": Default("rad", "a right angle", lambda _: 0.5 * math.pi),
+        "front_overhang": Default(
+            "m", "96/53/EC: cab 1.4, trailer 1.2", lambda unit: 1.4 if unit.front_hitch is None else 1.2
+        ),
+        "rear_overhang": Default("m", "half a metre behind the last wheel", lambda _: 1.0),
+        "width": Default("m", "96/53/EC: 2.55", lambda _: 2.55),
+        "height": Default("m", "96/53/EC: 4.0", lambda _: 4.0),
+    }
+)
+AXLE_DEFAULTS: Mapping[str, Default] = MappingProxyType(
+    {
+        "static_load": Default("N", "statics", lambda axle: axle.static_load),
+        "track_width": Default(
+            "m", "Factbook: steered 2.05, others 1.85", lambda axle: 2.05 if axle.steered else 1.85
+        ),
+        "tyre": Default("", "Pacejka, chapter 3", lambda _: "brush"),
+        "relaxation_length": Default(
+            "m",
+            "the tyre's file, else Pacejka: about the wheel's radius",
+            lambda axle: getattr(axle.tyre, "relaxation_length", None) or 0.5,
+        ),
+        "roll_stiffness": Default(
+            "N m/rad",
+            "Factbook: steered 4, others 8 N m/rad for each N of load",
+            lambda axle: (4.0 if axle.steered else 8.0) * axle.static_load,
+        ),
+        "roll_damping": Default(
+            "N m s/rad", "1/10 s of the stiffness", lambda axle: 0.1 * axle.roll_stiffness
+        ),
+        "rolling_resistance": Default("", "ISO 28580, class C3", lambda _: 0.006),
+        "brake_share": Default("N", "the static load", lambda axle: axle.static_load),
+    }
+)
+
+
+def complete(vehicle: Vehicle) -> Vehicle:
+    """Fill what a vehicle file does not give with the defaults.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    Vehicle
+        No field of which is None, but for hitches that are not there and `Axle.tyres`.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> complete(load_vehicle("a_double")).units[1].cg_height
+    2.0
+    """
+    loads = static_loads(vehicle)
+    units = []
+    for index, unit in enumerate(vehicle.units):
+        axles = tuple(
+            _filled(
+                replace(
+                    axle,
+                    static_load=load,
+                    driven=index == 0 and not axle.steered if axle.driven is None else axle.driven,
+                ),
+                AXLE_DEFAULTS,
+            )
+            for axle, load in zip(unit.axles, loads[index].axles, strict=True)
+        )
+        units.append(_filled(replace(unit, axles=axles), UNIT_DEFAULTS))
+    full: Vehicle = _filled(replace(vehicle, units=tuple(units)), VEHICLE_DEFAULTS)
+    return full
+
+
+def assumed(vehicle: Vehicle) -> tuple[Assumed, ...]:
+    """List the values that the nonlinear model assumes, as the file does not give them.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    tuple of Assumed
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> [each.value for each in assumed(load_vehicle("interlink")) if each.key == "units.1.cg_height"]
+    [2.0]
+    """
+    full = complete(vehicle)
+    found = list(_differences("", vehicle, full, VEHICLE_DEFAULTS))
+    for index, (unit, whole) in enumerate(zip(vehicle.units, full.units, strict=True)):
+        key = f"units.{index}."
+        found += _differences(key, unit, whole, UNIT_DEFAULTS)
+        for place, (axle, entire) in enumerate(zip(unit.axles, whole.axles, strict=True)):
+            found += _differences(f"{key}axles.{place}.", axle, entire, AXLE_DEFAULTS)
+            if axle.driven is None:
+                assert entire.driven is not None  # noqa: S101 - `complete` fills it
+                found.append(
+                    Assumed(f"{key}axles.{place}.driven", entire.driven, "", "rear axles of the lead unit")
+                )
+    return tuple(found)
+
+
+def _filled(record: Any, defaults: Mapping[str, Default]) -> Any:  # noqa: ANN401
+    for name, default in defaults.items():
+        if getattr(record, name) is None:
+            record = replace(record, **{name: default.rule(record)})
+    return record
+
+
+def _differences(
+    key: str, given: Axle | Unit | Vehicle, full: Axle | Unit | Vehicle, defaults: Mapping[str, Default]
+) -> list[Assumed]:
+    """Values of the full record that the given one lacks; those of a hitch only where there is one."""
+    hitchless = isinstance(given, Unit) and given.rear_hitch is None
+    return [
+        Assumed(key + name, getattr(full, name), default.unit, default.source)
+        for name, default in defaults.items()
+        if getattr(given, name) is None
+        and not (hitchless and (name.startswith("hitch_") or name == "max_articulation"))
+    ]

@@ -1,0 +1,113 @@
+"""Loads of a vehicle at rest on a level road."""
+
+from typing import NamedTuple
+
+from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Unit, Vehicle
+
+
+class Supports(NamedTuple):
+    """What a unit rests on.
+
+    The lead unit rests on two groups of axles, a towed one on its front hitch and its axles.
+
+    Attributes
+    ----------
+    front, rear : float
+        Positions from the centre of gravity [m]; equal where the unit has one support only.
+    front_axles, rear_axles : tuple of int
+        Axles of each support; a front hitch has none.
+    """
+
+    front: float
+    rear: float
+    front_axles: tuple[int, ...]
+    rear_axles: tuple[int, ...]
+
+
+class StaticLoads(NamedTuple):
+    """Vertical loads of a unit at rest.
+
+    Attributes
+    ----------
+    axles : tuple of float
+        In N.
+    front_hitch : float
+        In N, positive where the unit rests on the one ahead; 0 of the lead unit.
+    """
+
+    axles: tuple[float, ...]
+    front_hitch: float
+
+
+def supports(unit: Unit) -> Supports:
+    """Return what a unit rests on.
+
+    The steered axles of a lead unit are its front support; where all are steered, or none, it is the
+    foremost. A towed unit whose axles do not lie behind its front hitch rests on its axles alone.
+    """
+    every = tuple(range(len(unit.axles)))
+    positions = [axle.position for axle in unit.axles]
+
+    def centre(group: tuple[int, ...]) -> float:
+        return sum(positions[place] for place in group) / len(group)
+
+    if unit.front_hitch is not None:
+        rear = centre(every)
+        return Supports(max(unit.front_hitch, rear), rear, (), every)
+    steered = tuple(place for place in every if unit.axles[place].steered)
+    if len(steered) in {0, len(every)}:
+        steered = (max(every, key=lambda place: positions[place]),)
+    others = tuple(place for place in every if place not in steered)
+    if not others or centre(steered) <= centre(others):
+        return Supports(centre(every), centre(every), (), every)
+    return Supports(centre(steered), centre(others), steered, others)
+
+
+def static_loads(vehicle: Vehicle) -> tuple[StaticLoads, ...]:
+    """Loads of every axle and hitch at rest.
+
+    Axles of one support share it alike. Where all axles of a unit have a `static_load`, that is taken, and
+    the hitch carries the rest.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    tuple of StaticLoads
+        Of each unit, foremost first. A load below zero is set to zero: such a unit would tip.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> round(static_loads(load_vehicle("a_double"))[1].front_hitch)  # on the tractor's fifth wheel, N
+    140165
+    """
+    found: list[StaticLoads] = []
+    behind = 0.0
+    for unit in reversed(vehicle.units):
+        loads = _unit_loads(unit, behind)
+        behind = loads.front_hitch
+        found.insert(0, loads)
+    return tuple(found)
+
+
+def _unit_loads(unit: Unit, behind: float) -> StaticLoads:
+    weight = STANDARD_GRAVITY * unit.mass
+    given = [axle.static_load for axle in unit.axles]
+    towed = unit.front_hitch is not None
+    if None not in given:
+        loads = tuple(load for load in given if load is not None)
+        return StaticLoads(loads, weight + behind - sum(loads) if towed else 0.0)
+    held = supports(unit)
+    on_front = 0.0
+    if held.front != held.rear:
+        rear_hitch = unit.rear_hitch or 0.0
+        on_front = (behind * (rear_hitch - held.rear) - weight * held.rear) / (held.front - held.rear)
+    on_rear = weight + behind - on_front
+    axles = [0.0] * len(unit.axles)
+    for load, group in ((on_front, held.front_axles), (on_rear, held.rear_axles)):
+        for place in group:
+            axles[place] = max(load / len(group), 0.0)
+    return StaticLoads(tuple(axles), on_front if towed else 0.0)
