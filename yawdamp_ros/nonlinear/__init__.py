@@ -7,16 +7,21 @@ from yawdamp_ros.nonlinear.events import Event, EventKind
 from yawdamp_ros.nonlinear.layout import InputLayout, StateLayout
 from yawdamp_ros.nonlinear.outputs import Outputs
 from yawdamp_ros.nonlinear.settings import Settings
+from yawdamp_ros.nonlinear.steady import Linearisation, SteadyTurn, linearise, steady_turn
 
 __all__ = [
     "COMPILED",
     "Event",
     "EventKind",
     "InputLayout",
+    "Linearisation",
     "NonlinearDynamics",
     "NonlinearError",
     "Outputs",
     "Settings",
     "StateLayout",
+    "SteadyTurn",
     "Steps",
+    "linearise",
+    "steady_turn",
 ]

@@ -1,7 +1,11 @@
 """Compile a function by Numba where there is one; otherwise run it as it is."""
 
+import hashlib
 import logging
+import os
 from collections.abc import Callable
+from functools import cache
+from pathlib import Path
 from typing import TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., object])
@@ -23,9 +27,6 @@ COMPILED = numba is not None
 def compiled(function: Function) -> Function:
     """Compile a function on its first call, keeping floating-point operations in their written order.
 
-    The machine code is cached beside the module, or in the user's cache; where neither can be written, that
-    is logged once and every process compiles anew.
-
     Parameters
     ----------
     function : callable
@@ -43,20 +44,42 @@ def compiled(function: Function) -> Function:
     >>> twice(1.5)
     3.0
     """
-    if numba is None:
+    if numba is None or function.__module__ == "__main__":
         return function
+    directory = cache_directory()
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(directory or "")
     try:
-        made: Function = numba.njit(cache=True, error_model="numpy")(function)
-    except RuntimeError:  # Numba's "no locator available"
-        _say_once("numba's cache cannot be written: the nonlinear model is compiled anew in each process")
-        made = numba.njit(error_model="numpy")(function)
+        made: Function = numba.njit(cache=directory is not None, error_model="numpy")(function)
+    finally:
+        numba.config.CACHE_DIR = before
     return made
 
 
-_said: set[str] = set()
+@cache
+def cache_directory() -> Path | None:
+    """Directory that holds the machine code: beside the modules, else in the user's cache.
 
+    Its name holds a digest of this room's sources, for Numba itself does not notice that a function has
+    changed which a compiled one calls.
 
-def _say_once(text: str) -> None:
-    if text not in _said:
-        _said.add(text)
-        LOGGER.warning(text)
+    Returns
+    -------
+    Path or None
+        None where neither can be written; that is logged, and every process compiles anew.
+    """
+    sources = sorted(Path(__file__).parent.glob("*.py"))
+    digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()[:16]
+    home = os.environ.get("XDG_CACHE_HOME") or str(Path("~/.cache").expanduser())
+    for base in (Path(__file__).parent / "__pycache__", Path(home) / "yawdamp_ros"):
+        directory = base / f"numba-{digest}"
+        try:
+            directory.mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(directory, os.W_OK):
+            return directory
+    LOGGER.warning(
+        "no cache can be written: the nonlinear model is compiled anew in each process, half a minute"
+    )
+    return None

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
 from yawdamp_ros.dynamics.kinematics import FloatArray, IntArray
 from yawdamp_ros.nonlinear.errors import NonlinearError
@@ -12,9 +13,16 @@ from yawdamp_ros.nonlinear.layout import FRICTION_LEFT, FRICTION_RIGHT, SPEED, I
 from yawdamp_ros.nonlinear.motion import DIVERGED, DONE, rates, rk4_steps
 from yawdamp_ros.nonlinear.outputs import Outputs, empty_outputs, write_outputs
 from yawdamp_ros.nonlinear.parameters import parameters
-from yawdamp_ros.nonlinear.records import NOMINAL_FRICTION, Parameters, Work, make_work
+from yawdamp_ros.nonlinear.records import (
+    NOMINAL_FRICTION,
+    RELAXATION_LENGTH,
+    TOTAL_MASS,
+    Parameters,
+    Work,
+    make_work,
+)
 from yawdamp_ros.nonlinear.settings import Settings
-from yawdamp_ros.vehicle import Vehicle
+from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle
 
 
 @dataclass(frozen=True)
@@ -79,6 +87,16 @@ class NonlinearDynamics:
         """Slices of the input."""
         return InputLayout(self.layout.units, self.layout.axles)
 
+    @property
+    def vehicle_weight(self) -> float:
+        """Weight of the combination [N]."""
+        return float(STANDARD_GRAVITY * self.parameters.scalars[TOTAL_MASS])
+
+    @property
+    def lagging_wheels(self) -> npt.NDArray[np.bool_]:
+        """Whether the force of each wheel lags behind its slip."""
+        return np.repeat(self.parameters.axles[:, RELAXATION_LENGTH] > 0.0, 2)
+
     def inputs(
         self,
         steering: float = 0.0,
@@ -138,7 +156,7 @@ class NonlinearDynamics:
         """
         out = np.zeros(self.layout.size)
         with np.errstate(all="ignore"):
-            rates(np.ascontiguousarray(state, float), inputs, self.parameters, self._work(), out)
+            rates(np.array(state, float), np.array(inputs, float), self.parameters, self._work(), out)
         return out
 
     def no_events(self) -> IntArray:
@@ -231,7 +249,8 @@ class NonlinearDynamics:
         work, out = self._work(), np.zeros(self.layout.size)
         with np.errstate(all="ignore"):
             for place, (state, row) in enumerate(zip(states, rows, strict=True)):
-                rates(np.ascontiguousarray(state), np.ascontiguousarray(row), self.parameters, work, out)
+                # Copies: what NumPy shares may not be written, which Numba takes for another type.
+                rates(np.array(state), np.array(row), self.parameters, work, out)
                 write_outputs(made, place, state, self.parameters, work)
         return made
 
