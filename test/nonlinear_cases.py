@@ -57,6 +57,7 @@ def motion(  # noqa: PLR0913, PLR0917
     inputs: Callable[[float], np.ndarray],
     corners: Sequence[float] = (),
     tolerance: float = 1e-11,
+    method: str = "DOP853",
 ) -> np.ndarray:
     """States at times by SciPy, restarted where the inputs have a corner."""
     ends = [*sorted({float(times[0]), *(float(corner) for corner in corners), float(times[-1])})]
@@ -67,7 +68,7 @@ def motion(  # noqa: PLR0913, PLR0917
             lambda t, y: dynamics.derivatives(y, inputs(t)),
             (begin, end),
             state,
-            "DOP853",
+            method,
             np.append(inside, end),
             rtol=tolerance,
             atol=tolerance,

@@ -72,7 +72,10 @@ from yawdamp_ros.vehicle.tyres import POUNDS_FORCE_PER_NEWTON
 AIR_DENSITY = 1.2
 """In kg/m^3, at 20 degrees and sea level."""
 ABS_SHARE = 0.8
-"""Share of the friction that brakes with ABS use; UN R13, annex 13, demands 0.75. It leaves 0.6 of the lateral force."""
+"""Share of the friction that brakes with ABS use; UN R13, annex 13, demands 0.75.
+
+It leaves 0.6 of the lateral force.
+"""
 NO_ABS = 2.0
 """Without ABS: beyond twice the friction more demand makes no difference."""
 COEFFICIENTS = 23
