@@ -10,7 +10,7 @@ from yawdamp_ros.drives import Channel, Drive, DriveError, identify, inputs_of, 
 from yawdamp_ros.drives.noise_model import fitted
 from yawdamp_ros.vehicle import load_vehicle
 
-SEEDS = 6
+SEEDS = 3
 
 
 def test_the_truth_lies_within_most_intervals() -> None:
@@ -21,8 +21,8 @@ def test_the_truth_lies_within_most_intervals() -> None:
         for name, truth in TRUTH.items():
             assert found[name].value == pytest.approx(truth, rel=0.1)
             assert found[name].seen
-    # Of 18 intervals of 95 %, 15 or more hold the truth in 998 of 1000 such sets.
-    assert inside >= 3 * SEEDS - 3
+    # Of 9 intervals of 95 %, 7 or more hold the truth in 992 of 1000 such sets.
+    assert inside >= 3 * SEEDS - 2
 
 
 def test_the_identified_vehicle_explains_the_part_it_was_not_fitted_to() -> None:

@@ -142,3 +142,19 @@ def test_a_minute_of_real_driving_drives_the_node(graph: Graph) -> None:
         if topic.endswith("/yaw_rate"):
             published = [message.data for _, message in messages[topic]]
             check_all_came([message.data for message in arrived], published, lost)
+
+
+def test_the_speed_of_a_drive_is_published_beside_its_steering_and_in_step(
+    graph: Graph, tmp_path: Path
+) -> None:
+    path = tmp_path / "drive.csv"
+    path.write_text(
+        "time,steering,speed_kmh\n" + "".join(f"{0.02 * row},{0.001 * row},{36 + row}\n" for row in range(50))
+    )
+    graph.listen({"/steering": Float64, "/speed": Float64})
+    status, output, errors = outcome(graph.command("replay", str(path)))
+    assert (status, errors) == (0, "")
+    assert "with 50 speeds of 10.00 to 23.61 m/s" in output
+    until(lambda: len(angles(graph)) == 50, "the whole log")
+    speeds = [message.data for message in graph.messages("/speed")]
+    np.testing.assert_allclose(speeds, (36.0 + np.arange(50)) / 3.6)

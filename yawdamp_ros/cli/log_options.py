@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.drives import Channel, Drive
+from yawdamp_ros.drives import Drive
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.drive_formats import format_of, load_drive
 
@@ -83,9 +83,20 @@ def chosen_drive(
 
 
 def chosen_log(path: str, options: argparse.Namespace, duration: float | None) -> SteeringLog:
-    """Steering of a drive of a path in road-wheel angles, cut as the options say."""
+    """Steering and speed of a drive of a path, in road-wheel angles, cut as the options say."""
     drive = chosen_drive(path, options, duration, measured=False)
-    steering: Channel = drive["steering"]
+    steering, speed = drive["steering"], drive.channels.get("speed")
     return SteeringLog(
-        drive.source, steering.times.tolist(), steering.values.tolist(), drive.start_time, drive.warning
+        drive.source,
+        steering.times.tolist(),
+        steering.values.tolist(),
+        drive.start_time,
+        drive.warning,
+        () if speed is None else speed.times.tolist(),
+        () if speed is None else speed.values.tolist(),
     )
+
+
+def speed_line(log: SteeringLog) -> str:
+    """What a log's speed is."""
+    return f"{len(log.speeds)} speeds of {min(log.speeds):.2f} to {max(log.speeds):.2f} m/s"

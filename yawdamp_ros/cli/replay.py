@@ -18,7 +18,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
     from yawdamp_ros.cli.errors import UsageError  # noqa: PLC0415
-    from yawdamp_ros.cli.log_options import chosen_log  # noqa: PLC0415
+    from yawdamp_ros.cli.log_options import chosen_log, speed_line  # noqa: PLC0415
     from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415
 
     options, ros_arguments = parse_before_ros(_parser(), arguments)
@@ -42,6 +42,8 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
             f"{lowest:.4f} to {highest:.4f} rad, on {node.topic}",
             flush=True,
         )
+        if log.speeds:
+            print(f"with {speed_line(log)}, for a node whose speed_source is topic", flush=True)
         with spinning(node):
             if options.wait:
                 node.wait_for_subscriber()
@@ -66,7 +68,8 @@ def _parser() -> "argparse.ArgumentParser":
 
     parser = Parser(
         "replay",
-        "Publish a recorded steering log on /steering at its own pace, as road-wheel angles.",
+        "Publish a recorded drive at its own pace: its steering on /steering, as road-wheel angles, and its\n"
+        "speed, where it has one, on /speed.",
         "python -m yawdamp_ros replay drive.csv --column steering_wheel_angle_deg --steering-ratio 16.88\n"
         "  python -m yawdamp_ros replay runs/20261121-120000_interlink",
     )

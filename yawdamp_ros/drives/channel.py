@@ -90,7 +90,18 @@ class Channel:
         """Value at each time in s, linear between samples."""
         return np.interp(times, self.times, self.values)
 
-    def window(self, start: float, end: float) -> "Channel":
-        """Samples from a start to an end in s; time starts anew at the start."""
+    def window(self, start: float, end: float, *, held: bool = False) -> "Channel":
+        """Samples from a start to an end in s; time starts anew at the start.
+
+        Parameters
+        ----------
+        start, end : float
+        held : bool
+            Whether the sample in force at the start is kept, too, as of the start.
+        """
         kept = (self.times >= start) & (self.times <= end)
-        return replace(self, times=self.times[kept] - start, values=self.values[kept])
+        times, values = self.times[kept] - start, self.values[kept]
+        before = int(np.searchsorted(self.times, start)) - 1
+        if held and before >= 0 and not (len(times) and times[0] == 0.0):
+            times, values = np.append(0.0, times), np.append(self.values[before], values)
+        return replace(self, times=times, values=values)

@@ -100,7 +100,9 @@ class Drive:
             If no sample of the steering is left.
         """
         end = float("inf") if duration is None else start + duration
-        cut = {name: channel.window(start, end) for name, channel in self.channels.items()}
+        cut = {
+            name: channel.window(start, end, held=name == "speed") for name, channel in self.channels.items()
+        }
         kept = {name: channel for name, channel in cut.items() if len(channel.times)}
         if not kept or ("steering" in self and "steering" not in kept):
             message = (

@@ -8,7 +8,9 @@ from scipy.linalg import solve_triangular
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 ORDERS = (0, 1, 2, 3, 5, 8, 13, 21, 34, 55)
-"""Of the autoregression, of which Akaike's criterion takes one: slow noise needs many coefficients."""
+"""Of the autoregression, of which Akaike's criterion and `GENEROSITY` take one."""
+GENEROSITY = 2.5
+"""Times the order that predicts best: parameters rest on slow noise, which an autoregression tells last."""
 
 
 class NoiseModel(NamedTuple):
@@ -70,7 +72,8 @@ def fitted(residuals: FloatArray) -> NoiseModel:
         2.0 * count * float(np.log(np.diag(model.factor)).sum()) + 2.0 * model.order * size**2
         for model in models
     ]
-    return models[int(np.argmin(criteria))]
+    enough = GENEROSITY * models[int(np.argmin(criteria))].order
+    return next((model for model in models if model.order >= enough), models[-1])
 
 
 def _yule_walker(covariances: list[FloatArray], order: int) -> NoiseModel:

@@ -29,6 +29,9 @@ class SteeringLog:
         Time of the first sample in ns, where the log knows; else 0.
     warning : str
         What is wrong with the file, though these samples could be read; else empty.
+    speed_times, speeds : sequence of float
+        Samples of the speed beside it, in s and m/s, each in force until the next; empty where the log
+        has none.
     """
 
     source: str
@@ -36,6 +39,8 @@ class SteeringLog:
     angles: Sequence[float]
     start_time: int = 0
     warning: str = ""
+    speed_times: Sequence[float] = ()
+    speeds: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         if self.duration > LONGEST_LOG:

@@ -23,7 +23,7 @@ SETTLING = 0.3
 
 
 class ReplayNode(Node):
-    """Publishes a steering log on ``steering``; ``~/pause`` halts and resumes it.
+    """Publishes a steering log on ``steering``, and its speed on ``speed``; ``~/pause`` halts and resumes it.
 
     Parameters
     ----------
@@ -47,6 +47,8 @@ class ReplayNode(Node):
         self._rate = rate
         self._stop = stop
         self._publisher = self.create_publisher(Float64, "steering", QUEUE_DEPTH)
+        self._speed_publisher = self.create_publisher(Float64, "speed", QUEUE_DEPTH) if log.speeds else None
+        self._moments = _moments(log)
         self._clock_publisher = self.create_publisher(Clock, "/clock", QUEUE_DEPTH) if publish_clock else None
         self._paused = threading.Event()
         self.lateness = self.worst_lateness = 0.0
@@ -86,7 +88,7 @@ class ReplayNode(Node):
     def _play_round(self, start: float, progress: Callable[[float], None]) -> bool:
         """Publish the log once; return False if the stop request came first."""
         message = Float64()
-        for at, angle in zip(self._log.times, self._log.angles, strict=True):
+        for at, steers, message.data in self._moments:
             while True:
                 if self._paused.is_set():
                     start += self._wait_while_paused()
@@ -96,8 +98,9 @@ class ReplayNode(Node):
                     break
             if self._stop.requested:
                 return False
-            message.data = angle
-            self._publisher.publish(message)
+            publisher = self._publisher if steers else self._speed_publisher
+            if publisher is not None:
+                publisher.publish(message)
             self.lateness = time.monotonic() - start - at / self._rate
             self.worst_lateness = max(self.worst_lateness, self.lateness)
             if self._clock_publisher is not None:
@@ -109,7 +112,8 @@ class ReplayNode(Node):
 
     def close(self) -> None:
         """Let subscribers have what was published."""
-        wait_for_subscribers([self._publisher])
+        publishers = [self._publisher, self._speed_publisher]
+        wait_for_subscribers([publisher for publisher in publishers if publisher is not None])
 
     def _wait_while_paused(self) -> float:
         """Wait for the pause to end; return how long it was in s."""
@@ -125,3 +129,16 @@ class ReplayNode(Node):
             self._paused.clear()
         response.success, response.message = True, "paused" if request.data else "playing"
         return response
+
+
+def _moments(log: SteeringLog) -> list[tuple[float, bool, float]]:
+    """Time in s, whether it steers, and the value of all that is to be published, in order.
+
+    A speed goes out before the steering of the same time, so that both act from one step on.
+    """
+    speeds = zip(log.speed_times, log.speeds, strict=True)
+    moments = [
+        *((at, False, speed) for at, speed in speeds if at <= log.duration),
+        *((at, True, angle) for at, angle in zip(log.times, log.angles, strict=True)),
+    ]
+    return sorted(moments, key=lambda moment: moment[:2])
