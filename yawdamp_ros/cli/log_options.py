@@ -131,8 +131,3 @@ def _read(path: str, options: argparse.Namespace, duration: float | None, *, mea
     if drive.warning:
         print(f"warning: {drive.warning}", file=sys.stderr)
     return drive.window(options.start_offset or 0.0, duration)
-
-
-def speed_line(log: SteeringLog) -> str:
-    """What a log's speed is."""
-    return f"{len(log.speeds)} speeds of {min(log.speeds):.2f} to {max(log.speeds):.2f} m/s"
