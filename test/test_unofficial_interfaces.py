@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "yawdamp_ros"
-OF_NAMED_TUPLES = {"_asdict", "_fields", "_replace"}
+OF_NAMED_TUPLES = {"_asdict", "_fields", "_make", "_replace"}
 LISTED = {
     "nodes/subscriptions.py: handle.take_message",
     "logs/mcap_log.py: super()._read_record",
@@ -28,7 +28,7 @@ def private_uses(path: Path) -> Iterator[str]:
             if (
                 private
                 and owner not in {"self", "cls", "os"}
-                and node.attr not in {"_asdict", "_replace", "_fields"}
+                and node.attr not in {"_asdict", "_fields", "_make", "_replace"}
             ):
                 yield f"{place}: {owner}.{node.attr}"
             elif owner.endswith(".handle"):
