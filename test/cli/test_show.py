@@ -69,13 +69,14 @@ def test_what_is_assumed_is_marked_and_comes_with_its_source(capsys: pytest.Capt
     assert "  Factbook: Fancher, Ervin, Winkler" in text
 
 
-def test_tonnes_for_kilograms_and_km_h_for_m_s_are_implausible(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_axle_load_of_kilograms_and_km_h_for_m_s_are_implausible(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     changes = ["--set", "units.1.mass=164.84", "--set", "speed=60"]
     problems = [
         (each["key"], each["problem"]) for each in answer(capsys, "truck_trailer", *changes)["implausible"]
     ]
-    trailer = [problem for key, problem in problems if key == "units.1.axles.0"]
-    assert "is the mass in tonnes?" in trailer[0]
+    assert ("units.1.axles.0", "static axle load 0.11 t: expected 1 to 20 t") in problems
     assert any(key == "speed" and "is it in km/h?" in problem for key, problem in problems)
     assert "Implausible, axle loads by statics:\n  nothing\n" in shown(capsys, "truck_trailer")
 
@@ -90,6 +91,7 @@ def test_the_picture_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[st
     "arguments, message",
     [
         (["interlnk"], "interlnk: no such vehicle"),
+        (["truck_trailer", "--set", "units.1.mass=16.484"], "units.1.mass: 16.484 kg on axles of"),
         (["--plot", "vehicle.pdf"], "vehicle.pdf: expected a name ending in .png or .svg"),
         (["interlink", "--set", "units.1.mass=heavy"], "units.1.mass: 'heavy': expected a mass in kg"),
     ],

@@ -45,4 +45,4 @@ def test_fifth_wheels_couple_roll_and_drawbar_eyes_do_not() -> None:
 
 def test_static_loads_are_given_for_all_axles_of_a_unit_or_none() -> None:
     with pytest.raises(VehicleError, match=r"units\.0\.axles\.1\.static_load: missing: expected on all"):
-        load_vehicle("interlink", ["units.0.axles.0.static_load=5e4"])
+        load_vehicle("truck_trailer", ["units.0.axles.0.static_load=5e4"])

@@ -86,7 +86,7 @@ def _print_units(full: Vehicle, marks: set[str]) -> None:
         for index, unit in enumerate(full.units)
     ]
     columns = ["unit", "mass\nt", "inertia\nt m²", "CG\nhigh m", "wheel-\nbase m", "front\nhitch m"]
-    print_table("Units", [*columns, "rear\nhitch m"], rows)
+    print_table("Units", [*columns, "rear\nhitch m"], rows, width=COLUMNS)
 
 
 def _print_axles(full: Vehicle, marks: set[str]) -> None:
@@ -109,7 +109,7 @@ def _print_axles(full: Vehicle, marks: set[str]) -> None:
                 ]
             )
     columns = ["axle", "at m", "load\nt", "stiff\nkN/rad", "over\nload", "track\nm", "tyre", ""]
-    print_table("Axles", columns, rows)
+    print_table("Axles", columns, rows, width=COLUMNS)
 
 
 def _print_hitches(vehicle: Vehicle, full: Vehicle, marks: set[str]) -> None:
@@ -129,7 +129,7 @@ def _print_hitches(vehicle: Vehicle, full: Vehicle, marks: set[str]) -> None:
             ]
         )
     columns = ["behind", "at m", "load\nt", "height\nm", "in roll\nkN m/rad", "turns to\ndeg"]
-    print_table("Hitches", columns, rows)
+    print_table("Hitches", columns, rows, width=COLUMNS)
 
 
 def _print_keys(title: str, lines: Iterable[str]) -> None:

@@ -21,7 +21,11 @@ _BREAKS = re.compile(r"(?<=_)(?=[a-z])|(?<=\+ )(?=[a-z])|(?<=   )(?=\S)|(?<=; )"
 
 
 def print_table(
-    title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], prose: Sequence[int] = (0,)
+    title: str,
+    columns: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    prose: Sequence[int] = (0,),
+    width: int | None = None,
 ) -> None:
     """Print a table; where the terminal is too narrow, in several parts.
 
@@ -34,8 +38,12 @@ def print_table(
         The first column is text, the others are numbers.
     prose : sequence of int
         Columns that may be shortened, the first one first.
+    width : int, optional
+        In characters; unless given the terminal's, or `PIPE_WIDTH`.
     """
-    console = Console(width=None if sys.stdout.isatty() else PIPE_WIDTH)
+    if width is None and not sys.stdout.isatty():
+        width = PIPE_WIDTH
+    console = Console(width=width)
     whole = _widths(columns, rows)
     if sum(whole) + FRAME * len(columns) < console.width:
         table = Table(title=Text(title), title_justify="left")
@@ -71,7 +79,7 @@ def _fill(
 
 
 def _widths(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[int]:
-    return [max(len(column), *_lengths(rows, index)) for index, column in enumerate(columns)]
+    return [max(_length(column), *_lengths(rows, index)) for index, column in enumerate(columns)]
 
 
 def _fitted(
@@ -92,7 +100,7 @@ def _least(columns: Sequence[str], rows: Sequence[Sequence[str]], prose: Sequenc
     """Least widths of columns: numbers and the words of a heading are whole."""
     words = [max(map(len, column.split()), default=0) for column in columns]
     return [
-        min(LEAST_PROSE, max(len(column), *_lengths(rows, index)))
+        min(LEAST_PROSE, max(_length(column), *_lengths(rows, index)))
         if index in prose
         else max(words[index], *_lengths(rows, index))
         for index, column in enumerate(columns)
@@ -114,7 +122,12 @@ def _parts(
 
 
 def _lengths(rows: Sequence[Sequence[str]], index: int) -> list[int]:
-    return [0, *(len(row[index]) for row in rows)]
+    return [0, *(_length(row[index]) for row in rows)]
+
+
+def _length(text: str) -> int:
+    """Length of the longest line."""
+    return max(map(len, text.split("\n")))
 
 
 def _lines(cell: str, width: int) -> list[str]:
