@@ -105,7 +105,7 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     state_matrix[..., rates + joints, 2 + joints] = -1.0
     input_matrix = np.zeros((*stack, 2 * count))
     # NumPy 1 takes a single right-hand side of stacked systems for vectors.
-    steering = np.broadcast_to(motion.steering, motion.mass.shape[:-1])
+    steering = np.broadcast_to(motion.steering, (*stack, rates))
     input_matrix[..., :rates] = np.linalg.solve(motion.mass, steering[..., np.newaxis])[..., 0]
     return state_matrix, input_matrix
 
