@@ -25,7 +25,9 @@ def check_schema(data: Any, source: str) -> None:  # noqa: ANN401
         if abs(value) > 1e300 or math.isnan(value):  # noqa: PLR2004
             shown = value if isinstance(value, float) else "a very long number"
             raise VehicleError(source, key, f"{shown}: expected a finite number")
-    errors = sorted(_validator().iter_errors(_with_names(data)), key=lambda error: list(map(str, error.path)))
+    for key in _nameless(data, ""):
+        raise VehicleError(source, key, "unknown key; expected a name")
+    errors = sorted(_validator().iter_errors(data), key=lambda error: list(map(str, error.path)))
     if errors:
         raise _schema_error(errors[0], source)
 
@@ -56,11 +58,13 @@ def _numbers(node: Any, key: str) -> Iterator[tuple[str, float]]:  # noqa: ANN40
         yield key, node
 
 
-def _with_names(node: Any) -> Any:  # noqa: ANN401
-    """Data whose keys are all text, as jsonschema before 4.18 needs them."""
-    if isinstance(node, dict):
-        return {str(name): _with_names(child) for name, child in node.items()}
-    return [_with_names(child) for child in node] if isinstance(node, list) else node
+def _nameless(node: Any, key: str) -> Iterator[str]:  # noqa: ANN401
+    """Keys that are no text, at which jsonschema before 4.18 fails."""
+    children = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
+    for name, child in children:
+        if isinstance(node, dict) and not isinstance(name, str):
+            yield _join(key, str(name))
+        yield from _nameless(child, _join(key, str(name)))
 
 
 @cache
