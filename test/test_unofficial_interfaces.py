@@ -25,11 +25,7 @@ def private_uses(path: Path) -> Iterator[str]:
         if isinstance(node, ast.Attribute):
             owner = ast.unparse(node.value)
             private = node.attr.startswith("_") and not node.attr.startswith("__")
-            if (
-                private
-                and owner not in {"self", "cls", "os"}
-                and node.attr not in {"_asdict", "_fields", "_make", "_replace"}
-            ):
+            if private and owner not in {"self", "cls", "os"} and node.attr not in OF_NAMED_TUPLES:
                 yield f"{place}: {owner}.{node.attr}"
             elif owner.endswith(".handle"):
                 yield f"{place}: handle.{node.attr}"
