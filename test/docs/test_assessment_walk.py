@@ -1,44 +1,21 @@
 """The walk through an assessment shows what its commands print."""
 
-import importlib.util
-import os
 import re
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
-DOCS = Path(__file__).parents[2] / "docs"
+from shown import DOCS, differences_of, printed, shown
+
 TEXT = (DOCS / "assessment.md").read_text(encoding="utf-8")
-SHOWN = re.findall(r"```console\n\$ (.+)\n([^`]*)```", TEXT)
+SHOWN = shown("assessment.md")
 
 
 @pytest.fixture(scope="module")
 def differences() -> Callable[[str, str], list[str]]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(DOCS))
-        spec = importlib.util.spec_from_file_location("reproduce", DOCS / "reproduce.py")
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-    return module.differences
-
-
-def printed(command: str) -> str:
-    """What a command prints where the package is installed, without blanks at the ends of lines."""
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    done = subprocess.run(
-        ["bash", "-c", command],
-        cwd=DOCS.parent,
-        env={**os.environ, "PATH": path},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=100,
-    )
-    assert done.stderr == ""
-    return "".join(f"{line.rstrip()}\n" for line in done.stdout.splitlines())
+    return differences_of()
 
 
 @pytest.mark.parametrize("command, output", SHOWN, ids=range(len(SHOWN)))
@@ -50,7 +27,7 @@ def test_output_is_what_the_command_prints(
 
 
 def test_every_command_has_its_output() -> None:
-    assert len(SHOWN) == TEXT.count("```console") == 7
+    assert len(SHOWN) == 7
 
 
 def test_verdicts_are_those_of_the_exit_status() -> None:

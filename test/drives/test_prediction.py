@@ -5,6 +5,7 @@ import pytest
 
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.drives import Channel, Drive, inputs_of, predict
+from yawdamp_ros.drives.by_motion import predict_by_motion
 from yawdamp_ros.stepping import Stepper
 
 TIMES = 0.01 * np.arange(1001)
@@ -65,3 +66,13 @@ def test_steering_between_two_instants_acts_by_its_mean() -> None:
 def test_acceleration_stands_in_for_a_speed() -> None:
     inputs = inputs_of(drive(np.zeros(1001), acceleration=np.full(1001, 0.5)), 10.0)
     np.testing.assert_allclose(inputs.speed, 10.0 + 0.5 * TIMES, atol=1e-9)
+
+
+def test_step_by_step_it_is_the_same() -> None:
+    vehicle = load_vehicle("truck_trailer")
+    made = drive(0.03 * np.sin(TIMES), speed=15.0 + np.sin(TIMES))
+    inputs = inputs_of(made, 20.0)
+    quick, slow = predict(vehicle, inputs), predict_by_motion(vehicle, inputs, "consistent")
+    assert quick.keys() >= slow.keys()
+    for output, values in slow.items():
+        np.testing.assert_allclose(quick[output], values, atol=5e-4 * np.abs(values).max())

@@ -27,10 +27,12 @@ from yawdamp_ros.cli.options import (
     chosen_vehicle,
 )
 from yawdamp_ros.cli.table import print_table
-from yawdamp_ros.drives import Drive, compare, excitation, inputs_of, matches, predict
+from yawdamp_ros.drives import Drive, compare, excitation, inputs_of, matches
 from yawdamp_ros.drives.comparison import BANDS
+from yawdamp_ros.drives.identification import predictor_of
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs.drive_formats import load_drive
+from yawdamp_ros.simulation import MODELS
 from yawdamp_ros.vehicle import Vehicle
 
 
@@ -94,7 +96,7 @@ def _simulated(
 ) -> tuple[FloatArray, Mapping[str, FloatArray]]:
     if not options.run:
         inputs = inputs_of(drive, vehicle.speed)
-        return inputs.times, predict(vehicle, inputs, _model(options))
+        return inputs.times, predictor_of(_model(options))(vehicle, inputs)
     run = load_drive(options.run)
     both = bool(drive.start_time and run.start_time)
     # Recordings of one clock are laid over each other by their stamps; other files by their starts.
@@ -124,6 +126,6 @@ def _parser() -> Parser:
     parser.add_argument("--duration", type=float, metavar="S", help="of the log; default: to its end")
     parser.add_argument("--html", metavar="FILE", help="also write a page with the curves over each other")
     add_format_option(parser)
-    add_vehicle_options(parser)
+    add_vehicle_options(parser, MODELS)
     add_log_options(parser)
     return parser

@@ -19,6 +19,7 @@ from yawdamp_ros.cli.options import (
 from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.drives import DEFAULT, Drive, Identification, identify
 from yawdamp_ros.drives.identification import predictor_of
+from yawdamp_ros.simulation import MODELS
 from yawdamp_ros.vehicle import VehicleSource, vehicle_text
 
 ESTIMATE_COLUMNS = ("parameter", "value", "95 % interval", "unit")
@@ -153,6 +154,6 @@ def _parser() -> Parser:
     parser.add_argument("--duration", type=float, metavar="S", help="of the log; default: to its end")
     parser.add_argument("--html", metavar="FILE", help="also write a page with the curves over each other")
     add_format_option(parser)
-    add_vehicle_options(parser)
+    add_vehicle_options(parser, MODELS)
     add_log_options(parser)
     return parser

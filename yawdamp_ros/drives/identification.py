@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
 
+from yawdamp_ros.drives.by_motion import predict_by_motion
 from yawdamp_ros.drives.channel import QUANTITIES, Channel, quantity_of
 from yawdamp_ros.drives.comparison import ChannelComparison, compare
 from yawdamp_ros.drives.drive import Drive
@@ -13,6 +14,7 @@ from yawdamp_ros.drives.likelihood import Fit, Series, maximise
 from yawdamp_ros.drives.matching import Match, matches
 from yawdamp_ros.drives.parameters import DEFAULT, Parameter, Subject, steered
 from yawdamp_ros.drives.prediction import Inputs, inputs_of, predict
+from yawdamp_ros.dynamics import MODELS as LINEAR_MODELS
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.vehicle import Vehicle, VehicleSource
 
@@ -117,13 +119,14 @@ class Identification:
 
 
 def predictor_of(model: str) -> Predictor:
-    """Predictor of a model of `MODELS`.
+    """Predictor of a model.
 
     Parameters
     ----------
     model : str
+        One of `yawdamp_ros.simulation.MODELS`.
     """
-    return partial(predict, model=model)
+    return partial(predict if model in LINEAR_MODELS else predict_by_motion, model=model)
 
 
 def identify(  # noqa: PLR0913 - each is one setting of a fit
@@ -139,8 +142,9 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
 
     Each sensor's offset is estimated with them, with what is known of it (`OFFSET_SPREAD`). The residuals
     are a vector autoregression, fitted in turn with the parameters, so that the intervals hold for
-    coloured noise, too. An interval is the wider one of the likelihood's and of one that holds whatever
-    the noise is.
+    coloured noise, too. The time by which the steering is late is estimated, too, unless a lag is asked
+    for: clocks and filters differ, and steering that holds between samples is half of one late. An
+    interval is the wider one of the likelihood's and of one that holds whatever the noise is.
 
     Parameters
     ----------
@@ -167,9 +171,10 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
     VehicleError
         If the vehicle is none, or a fit leaves the range of a key.
     """
-    subject = Subject(source, parameters)
+    lagging = {"steering_time_constant", "steering_delay"}.intersection(parameters)
+    subject = Subject(source, parameters if lagging else (*parameters, "steering_delay"))
     own = subject.vehicle.speed if speed is None else speed
-    inputs = inputs_of(drive, own)
+    times = inputs_of(drive, own).times
     matched, notes = matches(drive, subject.vehicle.unit_names)
     chosen = [match for match in matched if quantity_of(match.output) in FITTED]
     if not chosen:
@@ -178,6 +183,7 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
     start, middle, end = _parts(drive.duration, fitted_share)
 
     def outputs(values: Mapping[str, float]) -> Mapping[str, FloatArray]:
+        inputs = inputs_of(drive, own, delay=values.get("steering_delay", 0.0))
         return predictor(subject.vehicle_with(values), steered(inputs, values))
 
     series = [
@@ -188,7 +194,7 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
     fit = maximise(
         subject.parameters,
         outputs,
-        inputs.times,
+        times,
         series,
         [OFFSET_SPREAD[quantity_of(each.name)] for each in series],
     )
@@ -196,7 +202,7 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
         each.name: each.value(at) for each, at in zip(subject.parameters, fit.coordinates, strict=False)
     }
     offsets = dict(zip([each.name for each in series], fit.coordinates[len(values) :], strict=True))
-    compared = partial(_compared, chosen, offsets, inputs.times)
+    compared = partial(_compared, chosen, offsets, times)
     found, first = outputs(values), outputs({each.name: each.start for each in subject.parameters})
     return Identification(
         estimates=_estimates(subject.parameters, series, fit),

@@ -15,7 +15,7 @@ from yawdamp_ros.vehicle.load import value_at
 
 FACTORS = ("stiffness", "inertia")
 """Factors of every cornering stiffness, or every yaw inertia, of the vehicle; after a dot, of one unit."""
-STEERING = ("steering_ratio", "steering_offset", "steering_time_constant")
+STEERING = ("steering_ratio", "steering_offset", "steering_time_constant", "steering_delay")
 DEFAULT = ("stiffness", "inertia", "steering_offset")
 _POSITIVE = re.compile(r".*\.(mass|yaw_inertia|cornering_stiffness|tyre_load)|friction|.*friction")
 
@@ -100,6 +100,8 @@ class Subject:
             return Parameter(name, "", 1.0, 0.5, positive=True)
         if name == "steering_offset":
             return Parameter(name, "rad", 0.0, 0.01, positive=False)
+        if name == "steering_delay":
+            return Parameter(name, "s", 0.0, 0.02, positive=False)
         if name == "steering_time_constant":
             return Parameter(name, "s", 0.1, 0.1, positive=True)
         factor, _, unit = name.partition(".")

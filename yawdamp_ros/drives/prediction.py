@@ -46,7 +46,7 @@ class Inputs(NamedTuple):
     speed: FloatArray
 
 
-def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE) -> Inputs:
+def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: float | None = None) -> Inputs:
     """Inputs of a drive at the instants of a grid; every sample holds until the next.
 
     Parameters
@@ -56,6 +56,9 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE) -> Input
         In m/s, where the drive does not tell; also at the start, where it tells the acceleration.
     step_size : float
         In s.
+    delay : float, optional
+        Time in s by which the steering acts later than its stamps say, or earlier. If one is given the
+        angle at an instant is interpolated, so that what is predicted is a smooth function of the delay.
     """
     steering = drive["steering"]
     count = math.floor(drive.duration / step_size + 1e-6) + 1
@@ -63,12 +66,14 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE) -> Input
     # The integral of what is held is linear between samples.
     knots = np.append(steering.times, max(times[-1], steering.times[-1]) + step_size)
     integral = np.concatenate([[0.0], np.cumsum(np.diff(knots) * steering.values)])
-    at = np.interp(np.append(times, times[-1] + step_size), knots, integral)
+    shift = 0.0 if delay is None else delay
+    at = np.interp(np.append(times, times[-1] + step_size) - shift, knots, integral)
+    instant = steering.held(times + 1e-9) if delay is None else steering.interpolated(times - shift)
     followed = drive.speed(speed)
     speeds = np.full(count, speed) if followed is None else followed.held(times + 1e-9)
     return Inputs(
         times,
-        steering.held(times + 1e-9),
+        instant,
         np.diff(at) / step_size,
         np.clip(speeds, LOWEST_SPEED, HIGHEST_SPEED),
     )
