@@ -75,7 +75,7 @@ def test_small_motion_is_that_of_the_consistent_model(name: str) -> None:
 
 @pytest.mark.parametrize("friction, power", [(0.8, 2), (UNLIMITED, 3)])
 def test_it_tends_to_the_consistent_model_with_a_power_of_the_amplitude(friction: float, power: int) -> None:
-    # Brush tyres depart with the square; without the limit of friction they are linear, geometry with the cube.
+    # Brush tyres depart with the square; without a limit of friction only geometry does, with the cube.
     vehicle = load_vehicle("interlink")
     dynamics, linear = NonlinearDynamics(vehicle, PLANAR), linear_model(vehicle)
     count, dt = 2000, 0.001
