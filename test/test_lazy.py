@@ -26,13 +26,14 @@ def test_a_name_that_there_is_not_is_an_attribute_error() -> None:
 
 def test_dir_gives_the_public_names_and_rooms_and_no_others() -> None:
     rooms = {module.name for module in iter_modules(yawdamp_ros.__path__) if module.ispkg} - NOT_FOR_IMPORT
-    assert set(dir(yawdamp_ros)) == {"__version__", "linear_model", "load_vehicle", "simulate"} | rooms
+    names = {"__version__", "linear_model", "load_drive", "load_run", "load_vehicle", "simulate"}
+    assert set(dir(yawdamp_ros)) == names | rooms
     for room in ("analysis", "logs"):
         assert dir(getattr(yawdamp_ros, room)) == sorted(getattr(yawdamp_ros, room).__all__)
 
 
 def test_a_room_is_there_after_importing_the_package_alone() -> None:
-    code = "import yawdamp_ros as y; print(y.analysis.assess.__name__, y.stepping.simulate is y.simulate)"
+    code = "import yawdamp_ros as y; print(y.analysis.assess.__name__, y.library.simulate is y.simulate)"
     assert subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout == ("assess True\n")

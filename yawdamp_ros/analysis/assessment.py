@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from yawdamp_ros.analysis.answers import stack_of
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.measures import MEASURES, Measure
+from yawdamp_ros.analysis.measures import MEASURES, NONLINEAR, NONLINEAR_MEASURES, Measure
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.vehicle import Vehicle
 
@@ -54,7 +54,7 @@ def assess(
     ----------
     vehicle : Vehicle
     model : str
-        One of `yawdamp_ros.dynamics.MODELS`.
+        One of `yawdamp_ros.dynamics.MODELS`, or ``nonlinear``.
     speed : float, optional
         For every measure, in m/s; unless given each is taken at its standard's speed or, where that names
         none, at the vehicle's own.
@@ -77,7 +77,26 @@ def assess(
         low, high = THRESHOLDS
         message = f"srt: {srt}: expected a static rollover threshold in g, {low:g} to {high:g} (35 % is 0.35)"
         raise AnalysisError(message)
-    return tuple(_find(measure, vehicle, model, speed, srt) for measure in MEASURES.values())
+    find = _find_nonlinear if model == NONLINEAR else _find
+    return tuple(find(measure, vehicle, model, speed, srt) for measure in MEASURES.values())
+
+
+def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Finding, Finding], ...]:
+    """Take every measure that both models have by the linear and by the nonlinear one.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    speed : float, optional
+        As for `assess`.
+
+    Returns
+    -------
+    tuple of (Finding, Finding)
+        By `consistent` and by the nonlinear model, each at the manoeuvre of its standard.
+    """
+    pairs = zip(assess(vehicle, speed=speed), assess(vehicle, NONLINEAR, speed), strict=True)
+    return tuple(pair for pair in pairs if pair[0].measure.name in NONLINEAR_MEASURES)
 
 
 def failed(findings: Iterable[Finding]) -> bool:
@@ -101,6 +120,22 @@ def _find(measure: Measure, vehicle: Vehicle, model: str, speed: float | None, s
     ambiguity = f"{measure.name} could be read as {low:.4g} to {high:.4g}, on either side of its level"
     # A pass has to hold however the measure is read.
     return Finding(measure, at.speed, value, False if passed is False else None, "", ambiguity)
+
+
+def _find_nonlinear(
+    measure: Measure, vehicle: Vehicle, _model: str, speed: float | None, srt: float | None
+) -> Finding:
+    # Numba takes long to import, which no linear assessment waits for.
+    from yawdamp_ros.analysis.nonlinear_measures import nonlinear_measure  # noqa: PLC0415
+
+    at = speed or measure.speed or vehicle.speed
+    if measure.name not in NONLINEAR_MEASURES:
+        return Finding(measure, at, None, None, f"{measure.name} is defined for a linear model")
+    try:
+        value = nonlinear_measure(measure.name, vehicle, speed)
+    except AnalysisError as error:
+        return Finding(measure, at, None, None, str(error))
+    return Finding(measure, at, value, _judge(measure, value, srt))
 
 
 def _judge(measure: Measure, value: float | None, srt: float | None) -> bool | None:

@@ -194,3 +194,16 @@ _ALL = (
 
 MEASURES: Mapping[str, Measure] = MappingProxyType({measure.name: measure for measure in _ALL})
 """Every measure by its name."""
+
+NONLINEAR = "nonlinear"
+"""Name of the model that measures can be taken by besides the linear ones."""
+NONLINEAR_MEASURES = (
+    "least_damping_ratio",
+    "yaw_damping_coefficient",
+    "understeer_gradient",
+    "rearward_amplification",
+    "rearward_amplification_yaw_rate",
+    "high_speed_transient_offtracking",
+    "steady_offtracking",
+)
+"""Names of the measures that the nonlinear model has; the others are defined for a linear one."""

@@ -8,7 +8,7 @@ import numpy as np
 from yawdamp_ros.analysis.amplification import rearward_amplification
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.lane_change import run_lane_change, steer_axle_position
-from yawdamp_ros.analysis.measures import MEASURES
+from yawdamp_ros.analysis.measures import MEASURES, NONLINEAR
 from yawdamp_ros.analysis.offtracking import STEADY_RADIUS, high_speed_transient_offtracking
 from yawdamp_ros.analysis.severity import severity
 from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH, damping_of_peaks
@@ -38,7 +38,7 @@ def nonlinear_measure(name: str, vehicle: Vehicle, speed: float | None = None) -
     Parameters
     ----------
     name : str
-        One of `NONLINEAR_MEASURES`.
+        One of `yawdamp_ros.analysis.measures.NONLINEAR_MEASURES`.
     vehicle : Vehicle
     speed : float, optional
         In m/s; the measure's own, or else the vehicle's, unless given.
@@ -67,7 +67,7 @@ def nonlinear_measure(name: str, vehicle: Vehicle, speed: float | None = None) -
 
 def _drive(vehicle: Vehicle, speed: float, steering: Steering, duration: float) -> Response:
     response = simulate(
-        vehicle, steering, duration, sample_period=SAMPLE_PERIOD, speed=speed, model="nonlinear"
+        vehicle, steering, duration, sample_period=SAMPLE_PERIOD, speed=speed, model=NONLINEAR
     )
     if response.events and response.events[-1].final:
         last = response.events[-1]
@@ -136,5 +136,3 @@ _VALUES: Mapping[str, Callable[[Vehicle, float], float]] = MappingProxyType(
         "steady_offtracking": _steady_offtracking,
     }
 )
-NONLINEAR_MEASURES = tuple(_VALUES)
-"""Names of the measures that the nonlinear model has; the others are defined for a linear one."""

@@ -1,6 +1,7 @@
 """A measure of many vehicles that differ in a few numbers: what a sweep computes, chunk by chunk."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -8,10 +9,10 @@ import numpy as np
 
 from yawdamp_ros.analysis.eigenmodes import ComplexArray, damping_ratios
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.measures import MEASURES
+from yawdamp_ros.analysis.measures import MEASURES, NONLINEAR, NONLINEAR_MEASURES
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.vehicle import Vehicle, load_stack
+from yawdamp_ros.vehicle import Vehicle, load_stack, unstacked
 
 STABILITY = "stability"
 STUDIED = (STABILITY, *MEASURES)
@@ -21,7 +22,7 @@ LARGEST_REAL_PART = "largest_real_part"
 """Column of the largest real part of the eigenvalues, in 1/s; below 0 the vehicle is stable."""
 
 _EIGENVALUES = (STABILITY, "least_damping_ratio")
-_LARGE_CHUNK, _CHUNK = 25_000, 500
+_LARGE_CHUNK, _CHUNK, _FEW = 25_000, 500, 5
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,8 @@ class Study:
     overrides : tuple of str
         Applied before the point's values.
     model : str
-        One of `yawdamp_ros.dynamics.MODELS`.
+        One of `yawdamp_ros.dynamics.MODELS`, or ``nonlinear``: then the measure is by the nonlinear model,
+        and the eigenvalues are those of `consistent`.
     keys : tuple of tuple of str
         For every coordinate of a point the keys that take its value.
     measure : str
@@ -55,6 +57,10 @@ class Study:
         if self.measure not in STUDIED:
             message = f"measure: {self.measure!r}: expected one of {', '.join(STUDIED)}"
             raise AnalysisError(message)
+        if self.model == NONLINEAR and self.measure not in NONLINEAR_MEASURES:
+            known = ", ".join(NONLINEAR_MEASURES)
+            message = f"measure: {self.measure!r}: the nonlinear model has {known}"
+            raise AnalysisError(message)
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -64,6 +70,8 @@ class Study:
     @property
     def chunk(self) -> int:
         """Points that are worth a message to another process."""
+        if self.model == NONLINEAR:
+            return _FEW
         return _LARGE_CHUNK if self.measure in _EIGENVALUES else _CHUNK
 
     def check(self, points: FloatArray) -> None:
@@ -116,7 +124,9 @@ class Study:
         stack = self._stack(points)
         eigenvalues = _eigenvalues(self._model(stack, len(points), None))
         found = [eigenvalues.real.max(axis=1)]
-        if self.measure in _EIGENVALUES[1:]:
+        if self.model == NONLINEAR:
+            found.append(self._nonlinear(stack, len(points)))
+        elif self.measure in _EIGENVALUES[1:]:
             found.append(damping_ratios(eigenvalues).min(axis=1))
         elif self.measure != STABILITY:
             measure = MEASURES[self.measure]
@@ -130,13 +140,26 @@ class Study:
             override.startswith("speed=") for override in self.overrides
         )
 
+    def _nonlinear(self, stack: Vehicle, count: int) -> FloatArray:
+        """The measure of each of a stack by the nonlinear model; NaN where it ends in a rollover."""
+        # Numba takes long to import, which no other study waits for.
+        from yawdamp_ros.analysis.nonlinear_measures import nonlinear_measure  # noqa: PLC0415
+
+        values = np.full(count, np.nan)
+        for index in range(count):
+            vehicle = unstacked(stack, index)
+            speed = vehicle.speed if self._speed_given else None
+            with suppress(AnalysisError):
+                values[index] = nonlinear_measure(self.measure, vehicle, speed)
+        return values
+
     def _stack(self, points: FloatArray) -> Vehicle:
         values = {key: column for keys, column in zip(self.keys, points.T, strict=True) for key in keys}
         return load_stack(self.text, self.source, self.overrides, values)
 
     def _model(self, stack: Vehicle, count: int, speed: float | None) -> LinearModel:
         """Linear model of a stack, of each of its vehicles even where they are all alike."""
-        model = linear_model(stack, speed, self.model)
+        model = linear_model(stack, speed, "consistent" if self.model == NONLINEAR else self.model)
 
         def each(part: FloatArray, axes: int) -> FloatArray:
             return np.broadcast_to(part, (count, *part.shape[-axes:]))

@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from yawdamp_ros.analysis import Finding, assess, failed
+from yawdamp_ros.analysis.assessment import differences
+from yawdamp_ros.analysis.measures import NONLINEAR
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.cli.number import number
+from yawdamp_ros.cli.number import ROUNDING_NOISE, number
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     Parser,
@@ -17,6 +19,7 @@ from yawdamp_ros.cli.options import (
     chosen_vehicle,
 )
 from yawdamp_ros.cli.table import print_table
+from yawdamp_ros.simulation import MODELS
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
 PAGES = (".html", ".htm")
@@ -28,6 +31,11 @@ def main(argv: Sequence[str]) -> int:
     options = _parser().parse_args(argv)
     if options.html is not None and Path(options.html).suffix.lower() not in PAGES:
         message = f"--html: {options.html}: expected a name ending in {' or '.join(PAGES)}"
+        raise UsageError(message)
+    if options.differences:
+        return _differences(options)
+    if options.html and options.model == NONLINEAR:
+        message = "--html: its pictures are of a linear model; not with --model nonlinear"
         raise UsageError(message)
     vehicle = chosen_vehicle(options)
     model = options.model or DEFAULT_MODEL
@@ -47,6 +55,58 @@ def main(argv: Sequence[str]) -> int:
     return 1 if failed(findings) else 0
 
 
+def _differences(options: argparse.Namespace) -> int:
+    """Say by how much each measure differs between the models, at its own manoeuvre."""
+    for name in ("html", "srt", "model"):
+        if getattr(options, name) is not None:
+            message = f"--{name}: not with --differences, which compares the models"
+            raise UsageError(message)
+    vehicle = chosen_vehicle(options)
+    pairs = differences(vehicle, options.speed)
+    if options.format == "json":
+        records = [
+            {
+                "measure": linear.measure.name,
+                "unit": linear.measure.unit,
+                "consistent": linear.value,
+                "nonlinear": nonlinear.value,
+                "difference": _difference(linear, nonlinear),
+                "reason": nonlinear.reason or None,
+            }
+            for linear, nonlinear in pairs
+        ]
+        print(json.dumps(records, indent=2))
+        return 0
+    print_table(
+        f"{vehicle.name}: the linear and the nonlinear model",
+        ("measure", "consistent", "nonlinear", "difference", "unit"),
+        [
+            (
+                linear.measure.name,
+                _number(linear.value),
+                _number(nonlinear.value),
+                "" if (by := _difference(linear, nonlinear)) is None else f"{100.0 * by:+.0f} %",
+                linear.measure.unit,
+            )
+            for linear, nonlinear in pairs
+        ],
+    )
+    for reason in dict.fromkeys(nonlinear.reason for _, nonlinear in pairs if nonlinear.reason):
+        print(f"no value: {reason}")
+    return 0
+
+
+def _difference(linear: Finding, nonlinear: Finding) -> float | None:
+    """Share by which the nonlinear value differs; None where there is none, or it is of nothing."""
+    if linear.value is None or nonlinear.value is None or abs(linear.value) < ROUNDING_NOISE:
+        return None
+    return nonlinear.value / linear.value - 1.0
+
+
+def _number(value: float | None) -> str:
+    return "none" if value is None else number(value)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(
         "assess",
@@ -56,8 +116,13 @@ def _parser() -> argparse.ArgumentParser:
         "Exit status: 0 if no level is failed, 1 if one is or may be, 2 for wrong use.",
         "yawdamp assess --vehicle a_double --srt 0.4",
     )
-    add_vehicle_options(parser)
+    add_vehicle_options(parser, MODELS)
     add_format_option(parser)
+    parser.add_argument(
+        "--differences",
+        action="store_true",
+        help="by how much each measure differs by the nonlinear model, at its own manoeuvre",
+    )
     parser.add_argument(
         "--html",
         metavar="FILE",

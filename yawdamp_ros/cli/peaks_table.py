@@ -1,6 +1,6 @@
 """The peaks that end a run, as a table and as a record."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import Any
 
 from yawdamp_ros.analysis.peaks import Peaks
@@ -31,15 +31,11 @@ def print_peaks(model: LinearModel, peaks: Peaks, note: str) -> None:
         print(f"note: {note}")
 
 
-def event_text(event: Event, step_size: float) -> str:
-    """An event in words, with its simulated time."""
-    return f"{event.name.replace('_', ' ')} of {event.where} at {event.step * step_size:.3f} s"
-
-
-def print_events(events: Sequence[Event], step_size: float) -> None:
-    """Print what happened, a line each."""
+def print_events(events: Iterable[Event], grid: TimeGrid, prefix: str = "") -> None:
+    """Print what happened to the vehicle, a line each."""
     for event in events:
-        print(event_text(event, step_size))
+        name = event.name.replace("_", " ")
+        print(f"{prefix}{name} of {event.where} at {grid.seconds(event.step):.3f} s")
 
 
 def peaks_record(model: LinearModel, peaks: Peaks, beyond: Stop | None, grid: TimeGrid) -> dict[str, Any]:

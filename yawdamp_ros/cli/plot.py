@@ -14,12 +14,12 @@ from yawdamp_ros.cli.options import (
     chosen_vehicle,
     manoeuvre_settings,
 )
-from yawdamp_ros.cli.peaks_table import event_text
+from yawdamp_ros.cli.peaks_table import print_events
 from yawdamp_ros.logs import is_recording
 from yawdamp_ros.runs import read_response_csv, read_response_recording
-from yawdamp_ros.stepping import Response
+from yawdamp_ros.stepping import Response, TimeGrid
 
-SAMPLE_STEP, SAMPLE_PERIOD = 0.001, 0.01
+STEP_SIZE, SAMPLE_PERIOD = 0.001, 0.01
 """Of the runs that --models makes, s."""
 KINDS = (".png", ".svg", ".html")
 
@@ -98,9 +98,10 @@ def _by_models(options: argparse.Namespace) -> list[tuple[str, Response]]:
             make_manoeuvre(options.manoeuvre, manoeuvre_settings(options)),
             chosen_vehicle(options),
         )
-        response = simulate(vehicle, steering, duration, sample_period=SAMPLE_PERIOD, model=model)
-        for event in response.events:
-            print(f"{model}: {event_text(event, SAMPLE_STEP)}")
+        response = simulate(
+            vehicle, steering, duration, step_size=STEP_SIZE, sample_period=SAMPLE_PERIOD, model=model
+        )
+        print_events(response.events, TimeGrid.of(STEP_SIZE, SAMPLE_PERIOD), f"{model}: ")
         runs.append((f"{vehicle.name}, {model}", response))
     return runs
 

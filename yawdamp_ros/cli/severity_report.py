@@ -3,14 +3,17 @@
 import argparse
 import json
 import math
+from typing import TYPE_CHECKING
 
-from yawdamp_ros.analysis.severity import Severity, severity
 from yawdamp_ros.cli.console import progress_of
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.options import chosen_vehicle
 from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from yawdamp_ros.analysis.severity import Severity
 
 CONDITIONS = ("turn", "friction", "braking")
 DEFAULT_TURN = 0.3 * STANDARD_GRAVITY
@@ -44,6 +47,9 @@ def acceleration(text: str) -> float:
 
 def run(options: argparse.Namespace) -> int:
     """Find, draw and print; 1 if a turn is unstable or there is none."""
+    # Numba takes long to import, which no linear question waits for.
+    from yawdamp_ros.analysis.severity import severity  # noqa: PLC0415
+
     for name, most in (("friction", 2.0), ("braking", STANDARD_GRAVITY)):
         value = getattr(options, name)
         if value is not None and not 0.0 < value < most:
@@ -72,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
     return 0 if found.stable else 1
 
 
-def _record(found: Severity) -> dict[str, object]:
+def _record(found: "Severity") -> dict[str, object]:
     units = found.vehicle.unit_names
     return {
         "vehicle": found.vehicle.name,
@@ -98,7 +104,7 @@ def _record(found: Severity) -> dict[str, object]:
     }
 
 
-def _print(found: Severity) -> None:
+def _print(found: "Severity") -> None:
     count = len(found.lateral_acceleration)
     stride = max(1, -(-(count - 1) // (LONGEST_TABLE - 1)))
     chosen = sorted({*range(0, count, stride), count - 1})

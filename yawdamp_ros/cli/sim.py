@@ -95,9 +95,10 @@ def _progress(simulator: "Simulator") -> Iterator[Callable[[], None]]:
 
 
 def _report(simulator: "Simulator", dropped: int) -> None:
-    from yawdamp_ros.cli.peaks_table import print_peaks  # noqa: PLC0415
+    from yawdamp_ros.cli.peaks_table import print_events, print_peaks  # noqa: PLC0415
 
     print_peaks(simulator.model, simulator.peaks, simulator.range.sentence)
+    print_events(simulator.run.events, simulator.grid)
     if dropped:
         lost = simulator.grid.seconds(dropped)
         print(f"late: {dropped} steps given up, {lost:g} s behind the steady clock")

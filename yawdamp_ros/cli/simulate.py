@@ -28,7 +28,7 @@ from yawdamp_ros.cli.options import (
     manoeuvre_settings,
     run_settings,
 )
-from yawdamp_ros.cli.peaks_table import peaks_record, print_peaks
+from yawdamp_ros.cli.peaks_table import peaks_record, print_events, print_peaks
 from yawdamp_ros.cli.ros import require_ros
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.room import check_room
@@ -84,9 +84,12 @@ def main(arguments: Sequence[str]) -> int:
     if options.format == "json":
         record = peaks_record(motion.linearise(), peaks, linear_range.first, grid)
         stopped = None if run.stopped is None else run.stopped._asdict()
-        print(json.dumps(record | {"stopped": stopped, "output": str(output)}, indent=2))
+        events = [event._asdict() | {"time": grid.seconds(event.step)} for event in run.events]
+        outcome = {"events": events, "stopped": stopped, "output": str(output)}
+        print(json.dumps(record | outcome, indent=2))
         return 1 if run.stopped else 0
     print_peaks(motion.linearise(), peaks, linear_range.sentence)
+    print_events(run.events, grid)
     if clamped := commands.steering_input.counts[Verdict.CLAMPED]:
         print(f"{clamped} commands clamped to {settings.max_steering_angle:g} rad")
     if run.stopped is not None:

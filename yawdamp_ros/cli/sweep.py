@@ -30,6 +30,7 @@ from yawdamp_ros.cli.options import (
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs.sweep_csv import SweepCsv
 from yawdamp_ros.nodes.stop_request import StopRequest
+from yawdamp_ros.simulation import MODELS
 from yawdamp_ros.vehicle import vehicle_text
 
 MOST_AXES = 2
@@ -199,7 +200,7 @@ def _parser() -> argparse.ArgumentParser:
         "yawdamp sweep --vary speed=10:40:31 --vary units.2.mass=5000:40000:36 --plot map.png\n"
         "  yawdamp sweep --random 100000 --range units.1.mass=4000:36000 --output drawn.csv",
     )
-    add_vehicle_options(parser)
+    add_vehicle_options(parser, MODELS)
     add_format_option(parser)
     group = parser.add_argument_group("what varies")
     group.add_argument(

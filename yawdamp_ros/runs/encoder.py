@@ -269,7 +269,9 @@ class Encoder:
         return np.array(rates)
 
     def _longitudinal(self, sample: Sample, steps: Sequence[int]) -> FloatArray:
-        """Longitudinal acceleration of every unit, from sample to sample: they all follow one speed."""
+        """Longitudinal acceleration of every unit; where all follow one speed, from sample to sample."""
+        if "longitudinal_acceleration" in sample.extra:
+            return sample.extra["longitudinal_acceleration"]
         speeds = np.reshape(sample.velocity.real, (len(steps), -1))[:, 0].tolist()
         rates = []
         for step, speed in zip(steps, speeds, strict=True):

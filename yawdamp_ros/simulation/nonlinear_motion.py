@@ -1,6 +1,7 @@
 """The nonlinear model as a motion that a run can follow."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -165,12 +166,12 @@ class NonlinearMotion:
         self._told = []
 
     def linearise(self) -> LinearModel:
-        """Linear model `consistent`, to which this motion tends for small steering, at the speed of now.
+        """Linear model to which this motion tends for small steering, `consistent`, at the speed of now.
 
-        Of a motion that has ended, at the speed at which it began.
+        Of a motion that has ended, at the speed at which it began. It bears the name of this motion.
         """
         speed = self.speed if np.isfinite(self.speed) else self._first_speed
-        return linear_model(self.vehicle, max(abs(speed), LOWEST_SPEED))
+        return replace(linear_model(self.vehicle, max(abs(speed), LOWEST_SPEED)), model="nonlinear")
 
     def _take(self, rows: FloatArray, every: int) -> tuple[FloatArray, tuple[Event, ...]]:
         """Take a step for each row of inputs; states after a motion that has ended are NaN."""
