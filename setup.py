@@ -48,7 +48,7 @@ setup(
         "threadpoolctl>=3.1.0",  # tells which kernels the BLAS has chosen, which the last bits depend on
     ],
     extras_require={
-        "fast": ["numba>=0.68.1"],  # compiles the nonlinear model, which runs without, a hundred times slower
+        "fast": ["numba>=0.59.1"],  # compiles the nonlinear model, which runs without, a hundred times slower
         "pictures": [
             "matplotlib>=3.6.3",  # the field's plotting library
             "plotly>=5.18.0",  # pages of curves to zoom into, which load nothing from elsewhere
@@ -56,7 +56,7 @@ setup(
         "analysis": ["control>=0.10.2"],  # root locus, Bode and Nyquist by the field's own library
         "bags": ["rosbags"],  # reads rosbag2 recordings with sqlite3 storage
         "cluster": ["distributed>=2026.8.0"],  # sweeps on other machines
-        "pandas": ["pandas>=2.2"],  # runs as tables
+        "pandas": ["pandas>=2.1.4"],  # runs as tables
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.
         "test": [
