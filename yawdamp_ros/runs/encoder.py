@@ -175,7 +175,7 @@ class Encoder:
             if output.type_name and (settings.publish_scalars or output.type_name != FLOAT64)
         ]
         self._own = {output.name: output.value for output in outputs if output.value is not None}
-        self._columns: dict[str, tuple[int, int]] = {}
+        self._columns: dict[str, int] = {}
         self._width = 0
         blanks = [
             self._blank(output, index, name)
@@ -220,12 +220,11 @@ class Encoder:
         stamps = [self.stamps.of(step) for step in steps]
         known = self._made(sample, steps)
         jump, self._jump = self._jump, None
-        values = np.empty((len(stamps), self._width))
-        for name, (start, width) in self._columns.items():
-            found = known[name] if name in known else quantity(sample, name)
-            values[:, start : start + width] = (
-                np.reshape(found, (len(stamps), width)) if np.ndim(found) else found
-            )
+        found = [known[name] if name in known else quantity(sample, name) for name in self._columns]
+        if len(stamps) == 1:
+            values = np.concatenate(found, axis=None)[np.newaxis]
+        else:
+            values = np.hstack([np.reshape(each, (len(stamps), -1)) for each in found])
         messages = self._templates.filled(values, stamps)
         frames = () if self.frames is None else self.frames.moving(sample, stamps)
         return Encoded(sample, stamps, self._names, messages, self.stamps.of, jump, frames)
@@ -272,12 +271,14 @@ class Encoder:
         """Longitudinal acceleration of every unit; where all follow one speed, from sample to sample."""
         if "longitudinal_acceleration" in sample.extra:
             return sample.extra["longitudinal_acceleration"]
-        speeds = np.reshape(sample.velocity.real, (len(steps), -1))[:, 0].tolist()
+        speeds = np.atleast_1d(sample.velocity.real[..., 0]).tolist()
         rates = []
         for step, speed in zip(steps, speeds, strict=True):
             rates.append(self._rate(self._last_speed, step, speed) if self._surge else 0.0)
             self._last_speed = step, speed
-        return np.reshape(np.repeat(rates, sample.yaw.shape[-1]), sample.yaw.shape)
+        of_units = np.empty_like(sample.yaw)
+        of_units.T[:] = rates
+        return of_units
 
     def _rate(self, last: tuple[int, float] | None, step: int, value: float) -> float:
         """Rate of change of a value since an earlier step; 0 where there is none."""
@@ -304,9 +305,9 @@ class Encoder:
     def _column(self, name: str, width: int) -> int:
         """First of the columns of values that hold a quantity."""
         if name not in self._columns:
-            self._columns[name] = self._width, width
+            self._columns[name] = self._width
             self._width += width
-        return self._columns[name][0]
+        return self._columns[name]
 
     def _prepare_imu(self, message: Any, unit: str) -> None:  # noqa: ANN401 - a generated message
         message.header.frame_id = self._frame_prefix + unit

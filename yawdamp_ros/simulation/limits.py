@@ -73,15 +73,13 @@ def limit_violation(
     consequence : str
         End of the reason.
     """
-    accelerations, articulations = np.abs(sample.lateral_acceleration), np.abs(sample.articulation)
-    # Said this way round, no number is too much, too.
-    if (
-        accelerations.max() <= limits.lateral_acceleration
-        and articulations.max(initial=0.0) <= limits.articulation
+    if _within(sample.lateral_acceleration, limits.lateral_acceleration) and _within(
+        sample.articulation, limits.articulation
     ):
         return None
     steps = np.atleast_1d(sample.step)
-    table = np.hstack([_of_instants(accelerations, steps), _of_instants(articulations, steps)])
+    parts = (sample.lateral_acceleration, sample.articulation)
+    table = np.abs(np.hstack([_of_instants(part, steps) for part in parts]))
     most = [limits.lateral_acceleration] * len(unit_names) + [limits.articulation] * (len(unit_names) - 1)
     instant, column = (int(index) for index in np.argwhere(~(table <= most))[0])
     if column < len(unit_names):
@@ -94,6 +92,13 @@ def limit_violation(
         key, where = "articulation", f"articulation_{joint + 1}"
         what = f"{where} {value:.4g} rad, past {limits.articulation:g}"
     return instant, Stop(int(steps[instant]), key, where, f"{what}, {consequence}")
+
+
+def _within(values: FloatArray, limit: float) -> bool:
+    """Whether every magnitude is within a limit; no number is not."""
+    if values.ndim == 1:  # of a few units NumPy takes longer
+        return all(abs(value) <= limit for value in values.tolist())
+    return bool((np.abs(values) <= limit).all())
 
 
 def _of_instants(values: FloatArray, steps: npt.NDArray[np.int64]) -> FloatArray:

@@ -1,6 +1,7 @@
 """The fixed step: zero-order hold by matrix exponential, exact for held steering."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -21,6 +22,10 @@ from yawdamp_ros.stepping.yaw import Yaw, YawParts
 
 KNOWN_SPEEDS = 4
 """Speeds whose matrices are kept: more of them would push each other out of the processor's cache."""
+
+FEW_STEPS = 100
+"""Steps over which no motion that a limit has let pass grows beyond all numbers."""
+_NOTHING = nullcontext()
 
 
 class _Instants(NamedTuple):
@@ -159,7 +164,7 @@ class Stepper:
         if steps:
             angles = np.empty(steps)
             angles.fill(self.steering_angle)
-            with np.errstate(over="ignore", invalid="ignore"):
+            with _quiet(steps):
                 self._advance(angles)
 
     def run(
@@ -188,8 +193,7 @@ class Stepper:
         given = np.asarray(angles, dtype=np.float64)
         if tell_inputs:
             self._note_changes(given)
-        # Judging what an unstable motion grows to is up to the caller.
-        with np.errstate(over="ignore", invalid="ignore"):
+        with _quiet(len(given)):
             states, blocks, positions = self._advance(given)
             if steps_per_sample is None:
                 instants = _Instants(states[-1], np.array(blocks[-1][1]), positions[-1])
@@ -203,8 +207,7 @@ class Stepper:
     def sample(self) -> Sample:
         """Sample of this instant; the list of inputs starts anew."""
         step, angle = np.asarray(self.step), np.asarray(self.steering_angle)
-        with np.errstate(over="ignore", invalid="ignore"):
-            return self._sample_of(step, angle, self._now())
+        return self._sample_of(step, angle, self._now())
 
     def _now(self) -> _Instants:
         states = np.append(self.state, self._motion.turned)
@@ -278,6 +281,8 @@ class Stepper:
 
     def _note_changes(self, angles: FloatArray) -> None:
         """Note where the steering will change over the steps to come."""
+        if (angles == self.steering_angle).all():
+            return
         before = np.append(self.steering_angle, angles[:-1])
         for index in np.flatnonzero(angles != before).tolist():
             self._inputs.append(AppliedInput(self.step + 1 + index, "steering", float(angles[index])))
@@ -296,6 +301,12 @@ class Stepper:
             heading.real * self.speed - sideways * heading.imag,
             heading.imag * self.speed + sideways * heading.real,
         )
+
+
+def _quiet(steps: int) -> AbstractContextManager[object]:
+    """Leave the judgement of what an unstable motion grows to over many steps to the caller."""
+    # To enter such a context takes as long as several steps.
+    return np.errstate(over="ignore", invalid="ignore") if steps > FEW_STEPS else _NOTHING
 
 
 def _ground_velocity(speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:
