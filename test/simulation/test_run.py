@@ -152,7 +152,9 @@ def recorded(
     commands, csv = kind(settings, GRID, motion), directory / "run.csv"
     encoder = Encoder(motion, settings, GRID, start_time=0)
     source = VehicleSource(vehicle_text(settings.vehicle), ())
-    recipe = Recipe(motion, GRID, settings, source, stamps=encoder.stamps, types=encoder.types)
+    recipe = Recipe(
+        motion, GRID, settings, source, stamps=encoder.stamps, types=encoder.types, frames=encoder.frames
+    )
     (directory / "run").mkdir()
     encoder.sinks.append(RunFile(recipe.open(directory / "run", settings)))
     run = Run(motion, GRID, commands, [encoder, ResponseCsv(csv, motion, GRID)])
