@@ -204,7 +204,7 @@ class Leaning:
         self.vehicle = vehicle
         self.input_names = (*self._inner.input_names, "truck/gust")
         self.state_names = (*self._inner.state_names, "gust")
-        self.quantity_names = ("roll",)
+        self.quantity_names = ("lean",)
         self._gust = 0.0
         self._noted: list[AppliedInput] = []
 
@@ -247,14 +247,14 @@ class Leaning:
         return self._inner.linearise()
 
     def _leaning(self, sample: Sample) -> Sample:
-        roll = 0.02 * sample.lateral_acceleration + self._gust
-        over = np.abs(roll).max() > 0.05
+        lean = 0.02 * sample.lateral_acceleration + self._gust
+        over = np.abs(lean).max() > 0.05
         events = (Event(int(np.max(sample.step)), "rollover", "truck", final=True),) if over else ()
         noted, self._noted = tuple(self._noted), []
-        return sample._replace(extra={"roll": roll}, events=events, inputs=sample.inputs + noted)
+        return sample._replace(extra={"lean": lean}, events=events, inputs=sample.inputs + noted)
 
 
-ROLL = outputs.scalar("roll", Of.UNIT, "roll", "rad")
+LEAN = outputs.scalar("lean", Of.UNIT, "lean", "rad")
 
 
 class Gusts(Commands):
@@ -269,19 +269,19 @@ def test_a_model_with_quantities_inputs_and_events_of_its_own_is_one_entry(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(models, "MODELS", {**models.MODELS, "leaning": Leaning})
-    monkeypatch.setattr(outputs, "OUTPUTS", (*outputs.OUTPUTS, ROLL))
+    monkeypatch.setattr(outputs, "OUTPUTS", (*outputs.OUTPUTS, LEAN))
     settings = SimParameters(
         vehicle="truck_trailer", model="leaning", manoeuvre="step", amplitude=0.01, start=0.0
     )
     motion = make_motion(load_vehicle(settings.vehicle), "leaning", None, GRID.step_size)
     by_csv, by_recording = recorded(tmp_path, settings, motion, Gusts)
-    assert by_csv.extra["roll"].shape == (len(by_csv.time), 2)
-    np.testing.assert_array_equal(by_csv.extra["roll"], by_recording.extra["roll"])
+    assert by_csv.extra["lean"].shape == (len(by_csv.time), 2)
+    np.testing.assert_array_equal(by_csv.extra["lean"], by_recording.extra["lean"])
     again = Resimulation(tmp_path / "run")
     assert len(list(again.compare())) == len(by_csv.time)
     assert again.bit_identical
     linear = make_motion(load_vehicle(settings.vehicle), "consistent", None, GRID.step_size)
-    assert "truck/roll" not in Encoder(linear, settings, GRID, start_time=0).types
+    assert "truck/lean" not in Encoder(linear, settings, GRID, start_time=0).types
 
 
 def test_a_final_event_stops_a_run() -> None:
