@@ -70,13 +70,13 @@ for (above, beside), (name, samples) in zip(axes, runs.items(), strict=True):
     beside.set(xlabel="time [s]", ylabel="articulation [°]", ylim=(-100, 100))
 
 # %%
-# Rollover needs grip, not the lack of it. The interlink changes lanes on a dry road with the amplitude of
-# the report.
+# Rollover needs grip, not the lack of it. The A-double changes lanes on a dry road with the steering of the
+# report.
 
 from yawdamp_ros import simulate
 from yawdamp_ros.manoeuvres import LaneChange
 
-response = simulate(load_vehicle("interlink"), LaneChange(), 15.0, sample_period=0.01, model="nonlinear")
+response = simulate(load_vehicle("a_double"), LaneChange(), 15.0, sample_period=0.01, model="nonlinear")
 for event in response.events:
     print(f"{event.step * STEP:.2f} s: {event.name} of {event.where}")
 

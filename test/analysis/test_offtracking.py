@@ -46,7 +46,8 @@ def test_speed_swings_the_last_axle_out() -> None:
 
 
 def test_vehicle_too_heavy_for_its_tyres_has_no_steady_curve() -> None:
-    vehicle = load_vehicle("single_vehicle", ["units.0.mass=1e7"])
+    car = load_vehicle("single_vehicle")
+    vehicle = replace(car, units=(replace(car.units[0], mass=1e7),))
     with pytest.raises(AnalysisError, match="no steer angle holds a steady turn of 400 m"):
         steady_offtracking(linear_model(vehicle))
 

@@ -55,7 +55,7 @@ def test_runs_compared_are_named_in_the_legend(
     "arguments, said",
     [
         (["missing.csv"], "missing.csv: cannot be read"),
-        ([], "the following arguments are required: RUN"),
+        ([], "no run; expected RUN, or --models with a manoeuvre"),
     ],
 )
 def test_wrong_use_is_one_line_and_status_2(

@@ -185,7 +185,7 @@ def test_file_of_another_sweep_is_refused(tmp_path: Path, capsys: pytest.Capture
     output = str(tmp_path / "speeds.csv")
     assert run(["sweep", "--vary", "speed=10:30:3", "--output", output]) == 0
     capsys.readouterr()
-    for other in (["--vary", "speed=10:30:4"], ["--vary", "speed=10:30:3", "--set", "units.1.mass=5000"]):
+    for other in (["--vary", "speed=10:30:4"], ["--vary", "speed=10:30:3", "--set", "units.1.mass=16000"]):
         assert run(["sweep", *other, "--output", output]) == 2
         captured = capsys.readouterr()
         assert captured.out == ""
