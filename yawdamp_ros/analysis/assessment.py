@@ -105,7 +105,7 @@ def failed(findings: Iterable[Finding]) -> bool:
 
 
 def _find(measure: Measure, vehicle: Vehicle, model: str, speed: float | None, srt: float | None) -> Finding:
-    at = linear_model(vehicle, speed or measure.speed or vehicle.speed, model)
+    at = linear_model(vehicle, measure.speed_for(vehicle, speed), model)
     answers = measure.answers(stack_of(at))
     try:
         value = answers.only()
@@ -128,7 +128,7 @@ def _find_nonlinear(
     # Numba takes long to import, which no linear assessment waits for.
     from yawdamp_ros.analysis.nonlinear_measures import nonlinear_measure  # noqa: PLC0415
 
-    at = speed or measure.speed or vehicle.speed
+    at = measure.speed_for(vehicle, speed)
     if measure.name not in NONLINEAR_MEASURES:
         return Finding(measure, at, None, None, f"{measure.name} is defined for a linear model")
     try:

@@ -10,7 +10,7 @@ import numpy as np
 from yawdamp_ros.analysis.answers import stack_of
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.motion import free_motion, stacked_exponential
-from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.dynamics import LinearModel, split_outputs
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping import Response
 from yawdamp_ros.vehicle import Vehicle
@@ -90,17 +90,16 @@ def run_lane_change(
     run = LaneChangeRuns(stack_of(model), change, duration)
     if run.reasons:
         raise AnalysisError(run.reasons[0])
-    units = len(model.vehicle.units)
-    outputs = run.outputs(range(4 * units - 1))[0].T
+    outputs = split_outputs(run.outputs(range(len(model.output_names)))[0].T, len(model.vehicle.units))
     paths = run.paths()
     return Response(
         unit_names=model.vehicle.unit_names,
         time=run.time,
         steering_angle=run.steering()[0],
         yaw=paths.yaw[0],
-        yaw_rate=outputs[:, units : 2 * units],
-        lateral_acceleration=outputs[:, 2 * units : 3 * units],
-        articulation=outputs[:, 3 * units :],
+        yaw_rate=outputs.yaw_rate,
+        lateral_acceleration=outputs.lateral_acceleration,
+        articulation=outputs.articulation,
         x=paths.x[0],
         y=paths.y[0],
     )

@@ -23,6 +23,7 @@ from yawdamp_ros.analysis.speed_brackets import SPEEDS
 from yawdamp_ros.analysis.steady_state import understeer_gradients
 from yawdamp_ros.analysis.yaw_damping import EXCITED, PULSE_WIDTH, yaw_dampings
 from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.vehicle import Vehicle
 
 PBS_DAMPING_SPEED = 80.0 / 3.6
 """In m/s."""
@@ -92,6 +93,12 @@ class Measure:
             If the question has no answer, as that for a lane change of an unstable vehicle.
         """
         return self.answers(stack_of(model)).only()
+
+    def speed_for(self, vehicle: Vehicle, asked: float | None = None) -> float:
+        """Speed at which a vehicle, or each of a stack, is judged [m/s]: asked for, standard, or own."""
+        if asked is not None:
+            return asked
+        return vehicle.speed if self.speed is None else self.speed
 
 
 def _in_lane_change(quantity: int) -> Callable[[LinearModel], Answers]:

@@ -58,7 +58,7 @@ def nonlinear_measure(name: str, vehicle: Vehicle, speed: float | None = None) -
     >>> 1.0 < nonlinear_measure("rearward_amplification", load_vehicle("interlink")) < 1.5
     True
     """
-    chosen = speed or MEASURES[name].speed or vehicle.speed
+    chosen = MEASURES[name].speed_for(vehicle, speed)
     try:
         return _VALUES[name](vehicle, chosen)
     except NonlinearError as error:

@@ -130,7 +130,7 @@ class Study:
             found.append(damping_ratios(eigenvalues).min(axis=1))
         elif self.measure != STABILITY:
             measure = MEASURES[self.measure]
-            speed = None if self._speed_given else measure.speed
+            speed = measure.speed_for(stack, stack.speed if self._speed_given else None)
             found.append(measure.answers(self._model(stack, len(points), speed)).values)
         return np.column_stack(found)
 

@@ -4,51 +4,24 @@ import argparse
 import json
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.options import Parser, add_format_option, add_vehicle_options, chosen_model
 from yawdamp_ros.cli.ros import require_ros
-from yawdamp_ros.errors import YawdampError
-from yawdamp_ros.logs import LogError, is_recording
-from yawdamp_ros.runs import read_response_csv
+from yawdamp_ros.logs import is_recording
+from yawdamp_ros.runs.repetition import Answer, repeat_csv, repeat_recording
 
-VEHICLE_OPTIONS = ("vehicle", "speed", "model")
-
-
-@dataclass(frozen=True)
-class Difference:
-    """The first value that is not what it was."""
-
-    where: str
-    field: str
-    time: float
-    recorded: str
-    repeated: str
-
-
-@dataclass(frozen=True)
-class Answer:
-    """What came of running a run again, alike for recordings and CSV files."""
-
-    agrees: bool
-    bit_identical: bool
-    promise: str
-    reason: str
-    duration: float
-    samples: int
-    values: int
-    difference: Difference | None
-    warning: str = ""
+VEHICLE_OPTIONS = ("vehicle", "speed", "model", "set")
 
 
 def main(arguments: Sequence[str]) -> int:
     """Run again what a run recorded, compare, and say what came of it."""
     options = _parser().parse_args(arguments)
     path = Path(options.run)
-    answer = _of_recording(path, options) if is_recording(path) else _of_csv(path, options)
+    answer = _answer(path, options)
     if answer.warning:
         print(f"warning: {answer.warning}", file=sys.stderr)
     if options.format == "json":
@@ -58,68 +31,17 @@ def main(arguments: Sequence[str]) -> int:
     return 0 if answer.agrees else 1
 
 
-def _of_recording(path: Path, options: argparse.Namespace) -> Answer:
-    for option in (*VEHICLE_OPTIONS, "set"):
+def _answer(path: Path, options: argparse.Namespace) -> Answer:
+    if not is_recording(path):
+        return repeat_csv(path, chosen_model(options))
+    for option in VEHICLE_OPTIONS:
         if getattr(options, option):
             message = f"--{option}: {path} is a recording and holds its own"
             raise UsageError(message)
     require_ros()
-    from yawdamp_ros.runs.resimulation import Resimulation  # noqa: PLC0415 - needs ROS's messages
-
-    run = Resimulation(path)
     with progress_bar() as bar:
         task = bar.add_task("comparing", total=None)
-        for time in run.compare():
-            bar.update(task, completed=time)
-    if run.promised:
-        reason = f"it was recorded on this kind of machine with this build: {run.build}"
-    else:
-        reason = f"it was recorded with {run.recorded_build}; this is {run.build}"
-    found = run.difference
-    return Answer(
-        agrees=run.agrees,
-        bit_identical=run.bit_identical,
-        promise="bit-identical" if run.promised else "1e-9 of the motion",
-        reason=reason,
-        duration=run.duration,
-        samples=run.samples,
-        values=run.values,
-        difference=found and Difference(found.topic, found.field, found.time, found.recorded, found.repeated),
-        warning=run.warning,
-    )
-
-
-def _of_csv(path: Path, options: argparse.Namespace) -> Answer:
-    from yawdamp_ros.runs.csv_resimulation import (  # noqa: PLC0415 - not needed by recordings
-        QUANTITIES,
-        TOLERANCE,
-        first_parting,
-        repeat,
-    )
-
-    recorded, model = read_response_csv(path), chosen_model(options)
-    try:
-        repeated = repeat(recorded, model)
-    except YawdampError as error:
-        raise LogError(path, str(error)) from error
-    parting = first_parting(recorded, repeated, TOLERANCE)
-    return Answer(
-        agrees=parting is None,
-        bit_identical=first_parting(recorded, repeated, 0.0) is None,
-        promise="1e-9 of the motion",
-        reason="a CSV file does not say where it was made",
-        duration=float(recorded.time[-1]),
-        samples=len(recorded.time),
-        values=sum(getattr(recorded, quantity).size for quantity in QUANTITIES),
-        difference=parting
-        and Difference(
-            f"column {parting.column + 1}",
-            parting.quantity,
-            parting.time,
-            repr(parting.recorded),
-            repr(parting.repeated),
-        ),
-    )
+        return repeat_recording(path, lambda time: bar.update(task, completed=time))
 
 
 def _print(path: Path, answer: Answer) -> None:

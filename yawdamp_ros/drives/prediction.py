@@ -15,7 +15,7 @@ from scipy.linalg import expm
 from yawdamp_ros.drives.drive import Drive
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.stepping.speed_input import HIGHEST_SPEED, LOWEST_SPEED
+from yawdamp_ros.stepping.speed_input import HIGHEST_SPEED, LOWEST_FOLLOWED
 from yawdamp_ros.vehicle import Vehicle
 
 STEP_SIZE = 0.01
@@ -75,7 +75,7 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: f
         times,
         instant,
         np.diff(at) / step_size,
-        np.clip(speeds, LOWEST_SPEED, HIGHEST_SPEED),
+        np.clip(speeds, LOWEST_FOLLOWED, HIGHEST_SPEED),
     )
 
 

@@ -11,6 +11,7 @@ from yawdamp_ros.dynamics.linear_range import LINEAR_ARTICULATION, LINEAR_LATERA
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.simulation.models import MODELS
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES
+from yawdamp_ros.stepping.speed_input import HIGHEST_SPEED
 
 UNSET = float("nan")
 """A number that was not given: the manoeuvre's own default counts."""
@@ -73,7 +74,7 @@ class SimParameters:
     speed: float | None = _parameter(
         None,
         "longitudinal speed in m/s",
-        limits=(LOWEST_SPEED, 70.0),
+        limits=(LOWEST_SPEED, HIGHEST_SPEED),
         dynamic=True,
         kind=float,
         otherwise="the vehicle's own",

@@ -4,7 +4,7 @@ import math
 
 from yawdamp_ros.stepping.verdict import Verdict
 
-LOWEST_SPEED = 1.0
+LOWEST_FOLLOWED = 1.0
 """In m/s. A slip angle is a lateral velocity over the speed, which means nothing towards standstill."""
 HIGHEST_SPEED = 70.0
 """In m/s, as for vehicle files."""
@@ -56,7 +56,7 @@ class SpeedInput:
         verdict = self._judge(speed)
         self.counts[verdict] += 1
         if verdict in {Verdict.ACCEPTED, Verdict.CLAMPED}:
-            self.speed = min(max(speed, LOWEST_SPEED), HIGHEST_SPEED)
+            self.speed = min(max(speed, LOWEST_FOLLOWED), HIGHEST_SPEED)
         return verdict
 
     def _judge(self, speed: float) -> Verdict:
@@ -64,4 +64,4 @@ class SpeedInput:
             return Verdict.NOT_FINITE
         if speed < 0.0:
             return Verdict.BACKWARDS
-        return Verdict.ACCEPTED if LOWEST_SPEED <= speed <= HIGHEST_SPEED else Verdict.CLAMPED
+        return Verdict.ACCEPTED if LOWEST_FOLLOWED <= speed <= HIGHEST_SPEED else Verdict.CLAMPED

@@ -1,0 +1,126 @@
+"""What comes of running a run again, alike for recordings and CSV files."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.errors import YawdampError
+from yawdamp_ros.logs import LogError
+from yawdamp_ros.runs.csv_resimulation import QUANTITIES, TOLERANCE, first_parting, repeat
+from yawdamp_ros.runs.response_reader import read_response_csv
+
+CLOSE = f"{TOLERANCE:.0e} of the motion".replace("e-0", "e-")
+"""What is promised where bit-identity is not."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """The first value that is not what it was."""
+
+    where: str
+    field: str
+    time: float
+    recorded: str
+    repeated: str
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Whether a run, run again, is what it was, and what was promised of that.
+
+    Attributes
+    ----------
+    agrees, bit_identical : bool
+        As promised; to the last bit.
+    promise, reason : str
+    duration : float
+        Compared, in s.
+    samples, values : int
+        How much was compared.
+    difference : Difference or None
+        The first one.
+    warning : str
+        What is wrong with the file; else empty.
+    """
+
+    agrees: bool
+    bit_identical: bool
+    promise: str
+    reason: str
+    duration: float
+    samples: int
+    values: int
+    difference: Difference | None
+    warning: str = ""
+
+
+def repeat_recording(path: Path, progress: Callable[[float], object] = lambda _: None) -> Answer:
+    """Run a recorded run again from what it contains.
+
+    Parameters
+    ----------
+    path : Path
+        Run directory or its MCAP file.
+    progress : callable, optional
+        Told the simulated time of every sample in s.
+
+    Raises
+    ------
+    LogError
+        If it is no run, or cannot be followed.
+    """
+    from yawdamp_ros.runs.resimulation import Resimulation  # noqa: PLC0415 - needs ROS's messages
+
+    run = Resimulation(path)
+    for time in run.compare():
+        progress(time)
+    if run.promised:
+        reason = f"it was recorded on this kind of machine with this build: {run.build}"
+    else:
+        reason = f"it was recorded with {run.recorded_build}; this is {run.build}"
+    found = run.difference
+    return Answer(
+        agrees=run.agrees,
+        bit_identical=run.bit_identical,
+        promise="bit-identical" if run.promised else CLOSE,
+        reason=reason,
+        duration=run.duration,
+        samples=run.samples,
+        values=run.values,
+        difference=found and Difference(found.topic, found.field, found.time, found.recorded, found.repeated),
+        warning=run.warning,
+    )
+
+
+def repeat_csv(path: Path, model: LinearModel) -> Answer:
+    """Run a CSV file of every step again by a model that it does not hold.
+
+    Raises
+    ------
+    LogError
+        If it is no run of that model's vehicle, sampled at every step.
+    """
+    recorded = read_response_csv(path)
+    try:
+        repeated = repeat(recorded, model)
+    except YawdampError as error:
+        raise LogError(path, str(error)) from error
+    parting = first_parting(recorded, repeated, TOLERANCE)
+    return Answer(
+        agrees=parting is None,
+        bit_identical=first_parting(recorded, repeated, 0.0) is None,
+        promise=CLOSE,
+        reason="a CSV file does not say where it was made",
+        duration=float(recorded.time[-1]),
+        samples=len(recorded.time),
+        values=sum(getattr(recorded, quantity).size for quantity in QUANTITIES),
+        difference=parting
+        and Difference(
+            f"column {parting.column + 1}",
+            parting.quantity,
+            parting.time,
+            repr(parting.recorded),
+            repr(parting.repeated),
+        ),
+    )
