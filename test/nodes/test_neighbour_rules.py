@@ -1,9 +1,10 @@
+from pathlib import Path
 from typing import Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
-from yawdamp_ros.nodes.neighbours import endpoint_name, heard, listening
+from yawdamp_ros.nodes.neighbours import endpoint_name, heard, is_cut_off, listening, namesakes
 from yawdamp_ros.nodes.states import Problem
 
 FLOAT64 = "std_msgs/msg/Float64"
@@ -64,3 +65,17 @@ def test_an_endpoint_is_named_with_its_namespace() -> None:
     assert endpoint_name(endpoint) == "/driver"
     endpoint.node_namespace = "/left"
     assert endpoint_name(endpoint) == "/left/driver"
+
+
+def test_a_node_of_the_same_name_is_a_finding() -> None:
+    graph = [("yawdamp_sim", "/"), ("driver", "/"), ("yawdamp_sim", "/left")]
+    assert namesakes("/yawdamp_sim", graph) == []
+    (finding,) = namesakes("/yawdamp_sim", [*graph, ("yawdamp_sim", "/")])
+    assert finding.problem is Problem.SAME_NAME
+    assert finding.sentence.startswith("2 nodes are called /yawdamp_sim")
+
+
+def test_shared_memory_counts_as_there_where_it_cannot_be_told(tmp_path: Path) -> None:
+    assert not is_cut_off(tmp_path / "no_proc")
+    (tmp_path / "3").symlink_to("fastrtps_0123 (deleted)")
+    assert is_cut_off(tmp_path)

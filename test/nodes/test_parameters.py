@@ -53,6 +53,9 @@ def test_what_may_change_changes() -> None:
         ({"record_directory": "/etc"}, "record_directory: '/etc': expected one below the working directory"),
         ({"record_directory": "a/../.."}, "expected one below the working directory"),
         ({"record_directory": "a\n"}, "expected one below the working directory"),
+        ({"record_directory": "."}, "expected one below the working directory"),
+        ({"record_directory": "./."}, "expected one below the working directory"),
+        ({"record_directory": "a/" * 2000}, "expected one below the working directory"),
     ],
 )
 def test_a_change_that_cannot_be_is_refused_by_what_is_wrong_with_it(

@@ -3,6 +3,7 @@ import rclpy
 from std_msgs.msg import Float64
 
 from graph import Graph, until
+from yawdamp_ros.nodes.guard import Guard
 from yawdamp_ros.nodes.subscriptions import SteeringSubscription
 from yawdamp_ros.simulation import Commands, SimParameters, make_motion
 from yawdamp_ros.stepping import TimeGrid, Verdict
@@ -15,7 +16,9 @@ def test_commands_that_have_arrived_act_before_the_executor_comes_to_them(graph:
     unspun = rclpy.create_node("unspun", context=graph.node.context)
     motion = make_motion(load_vehicle("interlink"), "consistent", None, 0.001)
     target = Commands(SimParameters(), TimeGrid.of(0.001, 0.01), motion)
-    subscription = SteeringSubscription(unspun, "std_msgs/msg/Float64", "", target, now=lambda: 0)
+    subscription = SteeringSubscription(
+        unspun, "std_msgs/msg/Float64", "", target, now=lambda: 0, guard=Guard(unspun)
+    )
     publisher = graph.steering_publisher()
     for angle in (0.1, 0.2):
         publisher.publish(Float64(data=angle))

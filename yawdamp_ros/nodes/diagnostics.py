@@ -56,6 +56,8 @@ class Readings(NamedTuple):
         Where the run left the linear range since the last look; empty if it did not.
     speed : float
         In m/s.
+    callback_failures : int
+        Errors that callbacks of the node ended in.
     """
 
     samples: int
@@ -76,6 +78,7 @@ class Readings(NamedTuple):
     least_damping_ratio: float
     beyond: str
     speed: float
+    callback_failures: int = 0
 
 
 class Diagnosis:
@@ -110,7 +113,7 @@ class Diagnosis:
         DiagnosticArray
         """
         before = self._before or readings._replace(
-            samples=0, commands={}, speeds={}, messages_lost=0, steps_dropped=0
+            samples=0, commands={}, speeds={}, messages_lost=0, steps_dropped=0, callback_failures=0
         )
         self._before = readings
         array = DiagnosticArray()
@@ -130,16 +133,20 @@ class Diagnosis:
         message = "paused" if now.paused else "in time"
         if dropped:
             state, message = TimingState.STEPS_DROPPED, f"{dropped} steps dropped since the last look"
+        failed = now.callback_failures - before.callback_failures
+        if failed:
+            state, message = TimingState.CALLBACK_FAILED, f"{failed} callbacks failed since the last look"
         wanted = f"{now.rate_wanted:.2f} Hz" if now.rate_wanted else "as fast as it goes"
         return self._status(
             "timing",
-            WARN if dropped else OK,
+            WARN if dropped or failed else OK,
             message,
             state=state,
             achieved_rate=f"{achieved:.2f} Hz",
             wanted_rate="paused" if now.paused else wanted,
             worst_lateness=f"{1e3 * now.worst_lateness:.3f} ms",
             steps_dropped=str(now.steps_dropped),
+            callback_failures=str(now.callback_failures),
             simulated_time=f"{now.simulated_time:.9g} s",
         )
 

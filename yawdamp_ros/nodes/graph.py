@@ -1,5 +1,6 @@
 """Joining the ROS graph and leaving it in good order."""
 
+import os
 import threading
 import time
 import warnings
@@ -21,6 +22,9 @@ from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.parameter_files import check_parameter_file, parameter_files
 from yawdamp_ros.nodes.stop_request import StopRequest
 
+HIGHEST_DOMAIN = 232
+"""Of ROS_DOMAIN_ID; above it port numbers end."""
+
 SPIN_PERIOD = 0.05
 """Longest time in s that the executor waits on end."""
 
@@ -39,6 +43,7 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
     NodeError
         If rclpy refuses the arguments, a file among them or a parameter, or cannot start.
     """
+    _check_domain(os.environ.get("ROS_DOMAIN_ID", ""))
     for path in parameter_files(ros_arguments):
         check_parameter_file(path)
     set_logger_level("rcl", LoggingSeverity.FATAL)  # what it refuses is raised, and said once
@@ -60,6 +65,13 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
         raise NodeError(_first_line(error)) from error
     finally:
         rclpy.try_shutdown()
+
+
+def _check_domain(given: str) -> None:
+    """Refuse a domain for which there are no ports: Fast DDS ends the process there."""
+    if given and not (given.isascii() and given.isdigit() and int(given) <= HIGHEST_DOMAIN):
+        message = f"ROS_DOMAIN_ID: {given!r}: expected a number from 0 to {HIGHEST_DOMAIN}"
+        raise NodeError(message)
 
 
 def join(name: str, overrides: Mapping[str, Any]) -> Node:

@@ -12,6 +12,8 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from yawdamp_ros.nodes.states import Problem
 from yawdamp_ros.runs.encoder import type_name
 
+DESCRIPTORS = Path("/proc/self/fd")
+"""Open files of this process."""
 CUT_OFF = (
     "the shared memory of Fast DDS was removed: who comes from now on can neither steer nor hear this node; "
     "start it again"
@@ -71,7 +73,9 @@ class Neighbours:
     def look(self) -> Neighbourhood:
         """Look around, and warn of what is new."""
         publishers = 0
-        findings = [Finding(Problem.SHARED_MEMORY_REMOVED, CUT_OFF)] if _is_cut_off() else []
+        findings = [Finding(Problem.SHARED_MEMORY_REMOVED, CUT_OFF)] if is_cut_off() else []
+        name = self._node.get_fully_qualified_name()
+        findings += namesakes(name, self._node.get_node_names_and_namespaces())
         for subscription in self._node.subscriptions:
             if subscription.topic_name in self._inputs:
                 found = self._node.get_publishers_info_by_topic(subscription.topic_name)
@@ -79,7 +83,6 @@ class Neighbours:
                 findings += heard(
                     subscription.topic_name, type_name(subscription.msg_type), subscription.qos_profile, found
                 )
-        name = self._node.get_fully_qualified_name()
         unheard = [
             finding
             for topic in self._outputs
@@ -126,6 +129,27 @@ def heard(
     return findings
 
 
+def namesakes(name: str, nodes: Sequence[tuple[str, str]]) -> list[Finding]:
+    """Findings on nodes that bear the same name as this one.
+
+    Parameters
+    ----------
+    name : str
+        Fully qualified.
+    nodes : sequence of (str, str)
+        Name and namespace of every node on the graph, this one among them.
+
+    Returns
+    -------
+    list of Finding
+    """
+    count = sum(f"{namespace.rstrip('/')}/{node}" == name for node, namespace in nodes)
+    if count < 2:  # noqa: PLR2004 - another than this one
+        return []
+    sentence = f"{count} nodes are called {name}: services and parameters reach either of them"
+    return [Finding(Problem.SAME_NAME, sentence)]
+
+
 def listening(
     topic: str, publisher: TopicEndpointInfo, listeners: Sequence[TopicEndpointInfo]
 ) -> list[Finding]:
@@ -158,13 +182,17 @@ def endpoint_name(endpoint: TopicEndpointInfo) -> str:
     return f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}"
 
 
-def _is_cut_off() -> bool:
-    """Whether files that this process holds for Fast DDS have gone, as when /dev/shm is tidied up."""
-    for descriptor in Path("/proc/self/fd").iterdir():
-        with suppress(OSError):  # closed by now
-            name = descriptor.readlink().name
-            if name.startswith("fastrtps_") and name.endswith(" (deleted)"):
-                return True
+def is_cut_off(descriptors: Path = DESCRIPTORS) -> bool:
+    """Whether files that this process holds for Fast DDS have gone, as when /dev/shm is tidied up.
+
+    Where that cannot be told, without /proc or a free descriptor, they count as there.
+    """
+    with suppress(OSError):
+        for descriptor in descriptors.iterdir():
+            with suppress(OSError):  # closed by now
+                name = descriptor.readlink().name
+                if name.startswith("fastrtps_") and name.endswith(" (deleted)"):
+                    return True
     return False
 
 

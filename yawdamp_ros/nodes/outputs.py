@@ -1,5 +1,6 @@
 """What the simulator publishes of a sample."""
 
+from collections import Counter
 from typing import Any
 
 from rclpy.event_handler import PublisherEventCallbacks
@@ -9,6 +10,7 @@ from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
+from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.scene import markers
 from yawdamp_ros.runs.encoder import Encoded, Encoder, message_class
@@ -48,6 +50,10 @@ class Topics:
             for topic, kind in encoder.types.items()
         ]
         self.names = [publisher.topic_name for publisher in self._publishers]
+        for topic, count in Counter(self.names).items():
+            if count > 1:
+                message = f"topic {topic}: {count} outputs are remapped to it; expected one each"
+                raise NodeError(message)
         self._clock: Any = None
         if settings.clock:
             self.publish_clock()

@@ -13,6 +13,8 @@ from rclpy.parameter import Parameter
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.simulation.settings import FORMER_NAMES, PARAMETERS, SimParameters
 
+DEEPEST_DIRECTORY = 32
+"""Parts of a path that a peer may ask to be recorded to."""
 _TYPE_NAMES = {
     bool: "true or false",
     int: "an integer",
@@ -189,6 +191,9 @@ def _is_confined(directory: str) -> bool:
     """Whether a path that any peer on the graph can have set stays below the working directory."""
     path = Path(directory)
     if path.is_absolute() or ".." in path.parts or not directory.isprintable():
+        return False
+    # A run has a name of its own; empty is the default's.
+    if directory and not 0 < len(path.parts) <= DEEPEST_DIRECTORY:
         return False
     try:
         return path.resolve().is_relative_to(Path.cwd().resolve())

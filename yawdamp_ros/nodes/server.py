@@ -54,22 +54,23 @@ class Server:
         self._tells_speed = False
         self._diagnosis = Diagnosis(node.get_fully_qualified_name(), simulator.motion.vehicle.name)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", QUEUE_DEPTH)
+        self._guard = guard = simulator.guard
         self._neighbours = Neighbours(node, ("steering", "speed"), simulator.topics.names)
         node.add_on_set_parameters_callback(self._check_parameters)
         node.add_post_set_parameters_callback(self._use_parameters)
-        node.create_service(Trigger, "~/reset", self._on_reset)
-        node.create_service(SetBool, "~/pause", self._on_pause)
-        node.create_service(Trigger, "~/step", self._on_step)
-        node.create_service(SetBool, "~/record", self._on_record)
+        node.create_service(Trigger, "~/reset", guard(self._on_reset))
+        node.create_service(SetBool, "~/pause", guard(self._on_pause))
+        node.create_service(Trigger, "~/step", guard(self._on_step))
+        node.create_service(SetBool, "~/record", guard(self._on_record))
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        node.create_timer(DIAGNOSTICS_PERIOD, self._diagnose, clock=steady)
+        node.create_timer(DIAGNOSTICS_PERIOD, guard(self._diagnose), clock=steady)
         self._looked_at = time.monotonic_ns()
         # The pacer comes before the timer, so that a period is over whenever the timer fires.
         rate = simulator.settings.real_time_factor
         # Half of what is made up for: a start that took longer shows as a jump of the stamps.
         since = max(simulator.started_at, time.monotonic_ns() - CATCH_UP_NS // 2)
         self._pacer = Pacer(simulator.grid.period_ns, rate, since)
-        self._timer = node.create_timer(self._timer_period(), self._on_timer, clock=steady)
+        self._timer = node.create_timer(self._timer_period(), guard(self._on_timer), clock=steady)
 
     def _on_timer(self) -> None:
         now = time.monotonic_ns()
@@ -227,6 +228,7 @@ class Server:
             least_damping_ratio=least_damping_ratio(motion.linearise()),
             beyond="" if (beyond := simulator.range.look()) is None else beyond.reason,
             speed=motion.speed,
+            callback_failures=self._guard.failures,
         )
 
 

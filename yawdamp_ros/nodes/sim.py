@@ -8,6 +8,7 @@ from rclpy.node import Node
 
 from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
+from yawdamp_ros.nodes.guard import Guard
 from yawdamp_ros.nodes.outputs import Topics
 from yawdamp_ros.nodes.parameters import declare_derived, declare_parameters
 from yawdamp_ros.nodes.recorder import Recorder
@@ -17,7 +18,7 @@ from yawdamp_ros.runs.encoder import Encoder
 from yawdamp_ros.runs.recipe import Recipe
 from yawdamp_ros.simulation import Commands, Limits, LinearRange, Run, SimParameters, Sink, Stop, make_motion
 from yawdamp_ros.stepping import Sample, TimeGrid
-from yawdamp_ros.vehicle import VehicleSource, parse_vehicle, vehicle_text
+from yawdamp_ros.vehicle import VehicleSource, examined_vehicle, vehicle_text
 
 
 class Simulator:
@@ -36,11 +37,13 @@ class Simulator:
 
     def __init__(self, node: Node) -> None:
         self._node = node
+        self.guard = Guard(node)
         self.settings = settings = declare_parameters(node)
         # Read once: the file may change or go while the node runs, but its vehicle does not.
         changes = tuple(change for change in settings.vehicle_overrides if change)
         source = VehicleSource(vehicle_text(settings.vehicle), changes)
-        vehicle = parse_vehicle(source.text, settings.vehicle, changes)
+        vehicle, doubts = examined_vehicle(source.text, settings.vehicle, changes)
+        self._doubts = doubts
         self.grid = TimeGrid.of(settings.step_size, 1.0 / settings.publish_rate)
         self.motion = make_motion(vehicle, settings.model, settings.speed, self.grid.step_size)
         self.settings = settings = replace(settings, speed=self.motion.speed)
@@ -50,10 +53,15 @@ class Simulator:
         self._subscription: SteeringSubscription | None = None
         if settings.manoeuvre == "none":
             self._subscription = SteeringSubscription(
-                node, settings.steering_type, settings.steering_joint, self.commands, now=self._now
+                node,
+                settings.steering_type,
+                settings.steering_joint,
+                self.commands,
+                now=self._now,
+                guard=self.guard,
             )
         if settings.speed_source == "topic":
-            subscribe_speed(node, self.commands.speed_input)
+            subscribe_speed(node, self.commands.speed_input, self.guard)
         # Time stamps and the pace of the samples are counted from one instant.
         self.started_at, start_time = time.monotonic_ns(), time.time_ns()
         self._encoder = encoder = Encoder(self.motion, settings, self.grid, start_time)
@@ -97,6 +105,8 @@ class Simulator:
         """
         self.run.start()
         self._tell_stop()
+        for doubt in self._doubts:
+            self._node.get_logger().warning(doubt)
         if growing := growth(self.model):
             self._node.get_logger().warning(growing)
         if self.recorder.directory is not None:

@@ -13,6 +13,7 @@ class TimingState(StrEnum):
     IN_TIME = "in_time"
     PAUSED = "paused"
     STEPS_DROPPED = "steps_dropped"
+    CALLBACK_FAILED = "callback_failed"
 
 
 class SteeringState(StrEnum):
@@ -48,6 +49,7 @@ class Problem(StrEnum):
     TYPE_MISMATCH = "type_mismatch"
     QOS_MISMATCH = "qos_mismatch"
     SEVERAL_PUBLISHERS = "several_publishers"
+    SAME_NAME = "same_name"
 
 
 class Reply(StrEnum):
@@ -59,6 +61,7 @@ class Reply(StrEnum):
     STEPPED = "stepped"
     NOT_PAUSED = "not_paused"
     STOPPED = "stopped"
+    FAILED = "failed"
 
 
 VERDICT_SENTENCES: Mapping[Verdict, str] = MappingProxyType(

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float64
 
 from yawdamp_ros.nodes.errors import NodeError
+from yawdamp_ros.nodes.guard import Guard
 from yawdamp_ros.nodes.states import VERDICT_SENTENCES
 from yawdamp_ros.runs.encoder import message_class
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
@@ -56,6 +57,7 @@ class SteeringSubscription:
     target : Commands
     now : callable
         Time in ns that stamps are held against.
+    guard : Guard
 
     Raises
     ------
@@ -63,7 +65,7 @@ class SteeringSubscription:
         If the message package is not installed.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - each is one thing that a command is judged by
         self,
         node: Node,
         type_name: str,
@@ -71,7 +73,9 @@ class SteeringSubscription:
         target: Commands,
         *,
         now: Callable[[], int],
+        guard: Guard,
     ) -> None:
+        self._receive = guard(self._judge)
         self._warned_at: dict[Verdict, float] = {}
         self._node = node
         self._angle = STEERING_TYPES[type_name]
@@ -94,7 +98,7 @@ class SteeringSubscription:
                 break
             self._receive(taken[0])
 
-    def _receive(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
+    def _judge(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
         command = self._angle(message, self._joint)
         if command is None:
             self._target.steering_input.reject(Verdict.NO_JOINT)
@@ -116,7 +120,7 @@ class SteeringSubscription:
             self._node.get_logger().warning(f"steering: {text}")
 
 
-def subscribe_speed(node: Node, target: SpeedInput) -> None:
+def subscribe_speed(node: Node, target: SpeedInput, guard: Guard) -> None:
     """Hand the speed topic to a `SpeedInput`."""
 
     def receive(message: Float64) -> None:
@@ -128,4 +132,4 @@ def subscribe_speed(node: Node, target: SpeedInput) -> None:
                 throttle_time_source_type=STEADY,
             )
 
-    node.create_subscription(Float64, "speed", receive, QUEUE_DEPTH, event_callbacks=QUIET)
+    node.create_subscription(Float64, "speed", guard(receive), QUEUE_DEPTH, event_callbacks=QUIET)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from yawdamp_ros.logs import LogError
-from yawdamp_ros.runs.message_definitions import message_definition
+from yawdamp_ros.runs.message_definitions import MessageDefinition, message_definition
 
 CHUNK_SIZE = 4 * 1024 * 1024
 """Bytes. The writer keeps an index entry of every chunk: small ones would fill the memory of a long run."""
@@ -89,9 +89,7 @@ class RunWriter:
 
         self.directory = directory
         self._channels = dict(channels)
-        self._definitions = {
-            name: message_definition(channel.type_name) for name, channel in channels.items()
-        }
+        self._definitions: dict[str, MessageDefinition] = {}
         self._counts = dict.fromkeys(channels, 0)
         self._taken = self._flushed = 0
         self._first_time: int | None = None
@@ -100,6 +98,8 @@ class RunWriter:
         self._file: BufferedWriter | None = None
         self._failed = False
         try:
+            for name, channel in channels.items():
+                self._definitions[name] = message_definition(channel.type_name)
             self._file = self._path.open("xb")
             self._writer = Writer(
                 self._file,
