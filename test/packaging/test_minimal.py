@@ -65,9 +65,13 @@ def minimal(source: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
             if target.is_file() and not link.exists() and link.is_relative_to(prefix):
                 link.parent.mkdir(parents=True, exist_ok=True)
                 link.symlink_to(target)
-    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check", "--python", str(prefix)]
-    options = ["--no-deps", "--no-build-isolation", "--ignore-installed"]
-    subprocess.run([*pip, "install", *options, str(source)], check=True, cwd=prefix, env=clean_environment())
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    # Built here: what builds the package is no dependency of it.
+    build = [*pip, "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", str(prefix), str(source)]
+    subprocess.run(build, check=True, cwd=prefix, env=clean_environment())
+    (wheel,) = prefix.glob("*.whl")
+    install = [*pip, "--python", str(prefix), "install", "--no-deps", str(wheel)]
+    subprocess.run(install, check=True, cwd=prefix, env=clean_environment())
     return prefix
 
 
