@@ -61,7 +61,7 @@ def test_any_cells_are_a_log_or_refused_in_one_line(file: Path, out: str, rows: 
         (b"time,steering\n0,\0\n", r"line 2: steering: '\x00': expected a finite number"),
         (
             b'"ti\nme\x1b[2J",steering\n0,0\n',
-            r"no time column; expected one of time, time_s, t, timestamp among ti\nme\x1b[2J",
+            r"expected one of time, time_s, t, timestamp, time_ms, time_us, time_ns among ti\nme\x1b[2J",
         ),
         (b",".join(b"steer%d" % index for index in range(60_000)) + b",time\n", "several steering columns"),
         ("time,steering\n0,0\n".encode("utf-16"), "not UTF-8 text"),

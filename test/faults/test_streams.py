@@ -28,7 +28,7 @@ def outcome(
 
 def test_a_full_output_is_said(tmp_path: Path) -> None:
     status, _, errors = outcome(["urdf"], tmp_path, "> /dev/full")
-    assert (status, errors) == (2, "yawdamp_ros urdf: standard output: No space left on device\n")
+    assert (status, errors) == (2, "python -m yawdamp_ros urdf: standard output: No space left on device\n")
 
 
 def test_a_closed_output_goes_nowhere(tmp_path: Path) -> None:

@@ -10,12 +10,18 @@ from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.analysis import growth
 from yawdamp_ros.cli import run
 
+SWAYING = [
+    "units.1.axles.0.cornering_stiffness=40000",
+    "units.1.axles.1.cornering_stiffness=40000",
+    "units.2.axles.0.position=0.5",
+    "units.2.axles.1.position=-0.2",
+]
 SKIDDING = ["units.0.axles.1.cornering_stiffness=50000", "units.0.axles.2.cornering_stiffness=50000"]
 
 
 def test_the_growing_mode_is_named() -> None:
     assert growth(linear_model(load_vehicle("interlink"))) == ""
-    swaying = linear_model(load_vehicle("interlink", ["units.2.front_hitch=-4"]))
+    swaying = linear_model(load_vehicle("interlink", SWAYING))
     found = growth(swaying)
     fastest = max(np.linalg.eigvals(swaying.state_matrix), key=lambda value: value.real)
     assert f"doubles every {np.log(2.0) / fastest.real:.3g} s" in found
@@ -23,7 +29,7 @@ def test_the_growing_mode_is_named() -> None:
 
 
 @pytest.mark.graph
-@pytest.mark.parametrize("changes", [SKIDDING, ["units.2.front_hitch=-4"]])
+@pytest.mark.parametrize("changes", [SKIDDING, SWAYING])
 def test_an_unstable_vehicle_is_warned_of_and_stopped_before_it_means_nothing(
     graph: Graph, changes: list[str]
 ) -> None:

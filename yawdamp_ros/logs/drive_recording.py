@@ -34,6 +34,10 @@ class Log(Protocol):
         """Every message that can be read."""
 
 
+JUMP_TOPIC, JUMP_TYPE = "/time_jump", "std_msgs/msg/Int64"
+"""Where a run of the node holds the jumps of its time stamps [ns]: each holds for all that follows it."""
+
+
 class _Place(NamedTuple):
     """Where a channel is found: a field of a topic's messages, or a joint."""
 
@@ -65,7 +69,13 @@ def read_drive_recording(path: Path, options: DriveOptions, log: Log | None = No
     wished = {_topic_of(wish.place) for wish in options.wishes}
     found: dict[str, list[RecordedMessage]] = {}
     topics: dict[str, str] = {}
-    for message in log.messages():
+    jumped = 0
+    for logged in log.messages():
+        if logged.type_name == JUMP_TYPE and logged.topic.endswith(JUMP_TOPIC):
+            jumped += int.from_bytes(logged.data[4:12], "little", signed=True)
+            continue
+        # A run of the node is on its own time, whatever its stamps jumped by to follow ROS time.
+        message = logged._replace(log_time=logged.log_time - jumped)
         topics[message.topic] = message.type_name
         if message.type_name in _HELD_TYPES or message.topic in wished:
             found.setdefault(message.topic, []).append(message)
@@ -74,7 +84,7 @@ def read_drive_recording(path: Path, options: DriveOptions, log: Log | None = No
         path, topic, found[topic], options.joint, degrees=options.degrees, warning=log.warning
     )
     places = {**_places(topics, found), **_wished_places(options.wishes, topics, path)}
-    reader = _Reader(path, steering)
+    reader = _Reader(path, steering, stamped=not jumped)
     channels = {"steering": _steering_channel(steering, topic, topics[topic])}
     for each in dict.fromkeys(place.topic for place in places.values()):
         of_topic = {
@@ -94,7 +104,8 @@ def _steering_channel(steering: SteeringLog, topic: str, kind: str) -> Channel:
 class _Reader:
     """Decodes the messages of topics on the time base of the steering."""
 
-    def __init__(self, path: Path, steering: SteeringLog) -> None:
+    def __init__(self, path: Path, steering: SteeringLog, *, stamped: bool) -> None:
+        self._stamped = stamped
         self.notes: list[str] = []
         self._path = path
         self._start = steering.start_time
@@ -133,7 +144,7 @@ class _Reader:
 
     def _times(self, stamps: npt.NDArray[np.int64], logged: npt.NDArray[np.int64]) -> FloatArray:
         skew = float(np.median(np.abs(stamps - logged))) / SECOND
-        trusted = bool(stamps.all()) and skew < LARGEST_SKEW
+        trusted = self._stamped and bool(stamps.all()) and skew < LARGEST_SKEW
         return ((stamps if trusted else logged) - self._start) / SECOND
 
 

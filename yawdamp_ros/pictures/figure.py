@@ -47,7 +47,11 @@ def add_legend(figure: Figure, columns: int, handles: Sequence[Line2D] | None = 
     """
     given = {} if handles is None else {"handles": handles}
     legend = figure.legend(loc="lower center", ncols=columns, fontsize="small", **given)
-    height = legend.get_window_extent().height / figure.bbox.height + LEGEND_MARGIN
+    for text in legend.get_texts():
+        text.set_parse_math(False)  # names are no formulas, and are measured as they are shown
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph")  # as in `save`
+        height = legend.get_window_extent().height / figure.bbox.height + LEGEND_MARGIN
     engine = figure.get_layout_engine()
     if isinstance(engine, ConstrainedLayoutEngine):
         engine.set(rect=(0.0, height, 1.0, 1.0 - height))

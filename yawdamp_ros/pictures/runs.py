@@ -65,6 +65,4 @@ def _add_legend(figure: Figure, names: Sequence[str], panels: Sequence[Panel]) -
     elif names:
         # Names are no formulas, whatever signs are in them.
         figure.suptitle(names[0], fontsize="medium", parse_math=False)
-    legend = add_legend(figure, min(len(handles), 6), handles)
-    for text in legend.get_texts():
-        text.set_parse_math(False)
+    add_legend(figure, min(len(handles), 6), handles)
