@@ -36,6 +36,8 @@ def test_the_npm_readers_decode_every_message(tmp_path: Path) -> None:
         "/steering_applied": 1,
         "/speed": 1,
         "/joint_states": 201,
+        "/tf": 201,
+        "/tf_static": 1,
         **{
             f"/{unit}/{output}": 201
             for unit in ("truck", "trailer_1", "trailer_2")
