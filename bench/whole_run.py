@@ -10,7 +10,7 @@ from mcap.writer import CompressionType, Writer
 from rclpy.serialization import deserialize_message, serialize_message
 from rosbags.highlevel import AnyReader
 
-from yawdamp_ros.nodes.subscriptions import message_class
+from yawdamp_ros.runs.encoder import message_class
 
 
 def steering_log(path: Path, seconds: int) -> None:
@@ -35,7 +35,7 @@ def written_anew(run: Path, copy: Path) -> float:
         for connection, _, data in reader.messages():
             kept = first.setdefault(connection.topic, [])
             if len(kept) < 100:  # noqa: PLR2004 - as many different messages of each topic as stay in a cache
-                kept.append(deserialize_message(data, message_class(connection.msgtype)))
+                kept.append(_message(data, connection.msgtype))
         counts = {topic: connection.msgcount for topic, connection in connections.items()}
         definitions = {topic: str(connection.msgdef.data) for topic, connection in connections.items()}
     topics = [topic for topic in counts if counts[topic] > 1]
@@ -53,7 +53,16 @@ def written_anew(run: Path, copy: Path) -> float:
         for index in range(instants):
             stamp = index * 10_000_000
             for topic in topics:
-                data = serialize_message(first[topic][index % 100])
+                message = first[topic][index % 100]
+                data = message if isinstance(message, bytes) else serialize_message(message)
                 writer.add_message(channels[topic], stamp, data, stamp, index)
         writer.finish()
     return time.perf_counter() - begin
+
+
+def _message(data: bytes, type_name: str) -> object:
+    """Message of a type, or its bytes where the package of the type, as tf2_msgs, is not installed."""
+    try:
+        return deserialize_message(data, message_class(type_name))
+    except ModuleNotFoundError:
+        return bytes(data)
