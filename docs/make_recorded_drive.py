@@ -18,7 +18,7 @@ from yawdamp_ros.logs.drive_formats import load_drive
 OUTPUT = Path(__file__).with_name("recorded_drive.csv")
 DURATION, PERIOD = 100.0, 0.04
 RATIO = 18.0
-"""Of the hand wheel to the road wheels."""
+"""Hand-wheel over road-wheel angle."""
 TRUTH = (
     "units.0.axles.0.cornering_stiffness=324630",
     "units.0.axles.1.cornering_stiffness=623360",
@@ -28,7 +28,7 @@ TRUTH = (
 HAND_WHEEL_OFFSET = 4.0
 """In deg: what the sensor of the hand wheel shows when the wheels are straight."""
 GYRO_OFFSET, ACCELERATION_OFFSET = 0.4, 0.08
-"""Of the truck's sensors, deg/s and m/s^2."""
+"""Standard deviations of the truck's sensors [deg/s, m/s^2]."""
 
 
 def hand_wheel(time: float) -> float:

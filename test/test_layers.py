@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -34,6 +36,17 @@ def loaded_by(code: str, *, without_ros: bool = False) -> subprocess.CompletedPr
 def test_no_ros_module_is_imported(code: str) -> None:
     found = loaded_by(f"{code}\nimport sys\nprint([name for name in {ROS!r} if name in sys.modules])")
     assert (found.stdout, found.stderr) == ("[]\n", "")
+
+
+def test_every_message_package_that_is_installed_is_forbidden_to_the_numerics() -> None:
+    index = Path(sys.prefix) / "share" / "ament_index" / "resource_index" / "rosidl_interfaces"
+    if not index.is_dir():
+        pytest.skip("this environment has no ROS")
+    installed = {path.name for path in index.iterdir()}
+    settings = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
+    contracts = {one["name"]: one for one in settings["tool"]["importlinter"]["contracts"]}
+    forbidden = set(contracts["The numerics never import ROS"]["forbidden_modules"])
+    assert installed <= forbidden
 
 
 def test_the_package_alone_imports_nothing_slow() -> None:

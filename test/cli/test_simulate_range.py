@@ -1,4 +1,4 @@
-"""What `simulate` says of a run that leaves the linear range."""
+"""`simulate` tells of a run that leaves the linear range."""
 
 import json
 from pathlib import Path

@@ -38,7 +38,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.timeout(400)
 def test_every_part_is_there(site: Path) -> None:
-    for part in ("tutorials", "how_to", "reference", "explanation", "auto_gallery"):
+    for part in ("tutorials", "reference", "explanation", "auto_gallery"):
         assert (site / part / "index.html").is_file(), part
 
 

@@ -1,4 +1,4 @@
-"""Where the machine code is kept."""
+"""The place of the machine code."""
 
 import logging
 from pathlib import Path

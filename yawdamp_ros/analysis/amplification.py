@@ -18,7 +18,7 @@ FREQUENCIES = np.concatenate([[0.0], np.geomspace(0.01, 4.0, 400)])
 BoolArray = npt.NDArray[np.bool_]
 
 _HALVINGS = 50
-"""Of the bracket of a peak: to a share of 1e-15 of it."""
+"""Bisections of the bracket of a peak, down to a share of 1e-15 of it."""
 
 
 class PeakAmplification(NamedTuple):

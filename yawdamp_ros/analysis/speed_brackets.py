@@ -14,7 +14,7 @@ SPEEDS = (0.5, 70.0)
 _SPACING = 0.3
 _PARTS = 16
 _HALVINGS = 48
-"""Of a bracket: to a share of 4e-15 of it."""
+"""Bisections of a bracket, down to a share of 4e-15 of it."""
 
 IntArray = npt.NDArray[np.intp]
 

@@ -1,4 +1,4 @@
-"""What `compare` and `identify` say of a drive."""
+"""Reports of `compare` and `identify`."""
 
 import math
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ SHORT = MappingProxyType({"yaw_rate": "r", "lateral_acceleration": "a_y", "yaw":
 
 
 def told(drive: Drive) -> list[str]:
-    """What was taken for what, one line a channel."""
+    """Print the place that each channel was found at."""
     return drive.described()
 
 
@@ -42,7 +42,7 @@ def comparison_rows(found: Sequence[ChannelComparison]) -> list[tuple[str, ...]]
 
 
 def comparison_record(found: ChannelComparison) -> dict[str, object]:
-    """What JSON holds of a comparison."""
+    """Return a comparison as JSON records."""
     names = ("bias", "gain", "lag", "rms_error", "rms_measured", "rms_simulated", "r_squared", "noise")
     record: dict[str, object] = {"output": found.output, "unit": found.unit}
     record |= {name: _plain(getattr(found, name)) for name in (*names, "attainable")}
@@ -55,7 +55,7 @@ def comparison_record(found: ChannelComparison) -> dict[str, object]:
 
 
 def excitation_lines(excited: Excitation) -> list[str]:
-    """How much a drive asked, in words."""
+    """Describe the excitation of a drive."""
     speeds = (
         f"{excited.lowest_speed:.2f} m/s"
         if excited.lowest_speed == excited.highest_speed

@@ -108,7 +108,7 @@ def chosen_log(
 
 
 def speed_line(log: SteeringLog) -> str:
-    """What a log's speed is."""
+    """Describe the speed of a log."""
     return f"{len(log.speeds)} speeds of {min(log.speeds):.2f} to {max(log.speeds):.2f} m/s"
 
 

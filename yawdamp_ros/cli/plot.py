@@ -20,7 +20,7 @@ from yawdamp_ros.runs import read_response_csv, read_response_recording
 from yawdamp_ros.stepping import Response, TimeGrid
 
 STEP_SIZE, SAMPLE_PERIOD = 0.001, 0.01
-"""Of the runs that --models makes, s."""
+"""Step and sample period of the runs that --models makes [s]."""
 KINDS = (".png", ".svg", ".html")
 
 

@@ -1,4 +1,4 @@
-"""What `stability --model nonlinear` says: stability over the severity of a turn."""
+"""Report of `stability --model nonlinear`: stability over the severity of a turn."""
 
 import argparse
 import json

@@ -1,4 +1,4 @@
-"""What `show` says, as text of 80 columns and as JSON."""
+"""Report of `show`, as text of 80 columns and as JSON."""
 
 import json
 import math
@@ -163,7 +163,7 @@ def _by_source(supposed: Sequence[Assumed]) -> list[str]:
 
 
 def _sources(supposed: Sequence[Assumed]) -> list[str]:
-    """What the short names stand for that occur."""
+    """Full names of the short names that occur."""
     named = " ".join(each.source for each in supposed)
     return [f"{name}: {text}" for name, text in SOURCES.items() if name in named]
 

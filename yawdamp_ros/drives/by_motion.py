@@ -1,4 +1,4 @@
-"""What any model makes of a drive, step by step: slower than `predict`, and not for linear models alone."""
+"""Prediction of a drive by any model, step by step: slower than `predict`."""
 
 from collections.abc import Mapping
 
@@ -9,7 +9,7 @@ from yawdamp_ros.stepping import AppliedInput, Response, TimeGrid
 from yawdamp_ros.vehicle import Vehicle
 
 STEPS = 5
-"""Of the motion, from one instant to the next."""
+"""Steps of the motion from one instant to the next."""
 
 
 def predict_by_motion(vehicle: Vehicle, inputs: Inputs, model: str) -> Mapping[str, FloatArray]:

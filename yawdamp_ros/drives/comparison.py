@@ -1,4 +1,4 @@
-"""What was simulated against what was measured, channel by channel."""
+"""Simulated against measured, channel by channel."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -64,7 +64,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Identification:
-    """What a drive says of a vehicle.
+    """Parameters of a vehicle, identified from a drive.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Identification:
 
     @property
     def warnings(self) -> list[str]:
-        """What the drive cannot tell."""
+        """Warnings of what the drive cannot tell."""
         told = [
             f"{each.parameter.name} cannot be seen in this drive: anything from {each.low:.4g} to "
             f"{each.high:.4g} {each.parameter.unit}".rstrip()

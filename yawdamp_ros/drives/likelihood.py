@@ -23,7 +23,7 @@ LAGS = 200
 
 
 class Series(NamedTuple):
-    """What one sensor measured.
+    """Measurements of one sensor.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Series(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """Where the likelihood is largest.
+    """Maximum of the likelihood.
 
     Attributes
     ----------

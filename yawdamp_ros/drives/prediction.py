@@ -26,7 +26,7 @@ MOST_BLOCKS = 256
 
 
 class Inputs(NamedTuple):
-    """What acts on a vehicle at instants a step apart.
+    """Inputs of a vehicle at instants a step apart.
 
     Attributes
     ----------

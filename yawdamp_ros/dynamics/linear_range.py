@@ -1,4 +1,4 @@
-"""How far a truck does what a linear model does."""
+"""Range in which a truck follows a linear model."""
 
 LINEAR_LATERAL_ACCELERATION = 4.0
 """In m/s^2. Beyond about this, the tyres of a loaded truck saturate and it may roll over."""

@@ -1,4 +1,4 @@
-"""What notebooks use: runs and drives as arrays, tables and pictures."""
+"""Notebook interface: runs and drives as arrays, tables and pictures."""
 
 from typing import TYPE_CHECKING
 

@@ -16,7 +16,7 @@ UNIT_QUANTITIES = {"yaw": "rad", "yaw_rate": "rad/s", "lateral_acceleration": "m
 
 
 class UnitCurves(NamedTuple):
-    """What one unit does over m samples.
+    """Motion of one unit over m samples.
 
     Attributes
     ----------

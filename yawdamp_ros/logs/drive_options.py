@@ -1,4 +1,4 @@
-"""How a recorded drive is to be read."""
+"""Options for reading a recorded drive."""
 
 import math
 from typing import NamedTuple

@@ -26,7 +26,7 @@ _HELD_TYPES = {*STEERING_TYPES, *MEASURING_TYPES, *SCALAR_TYPES}
 
 
 class Log(Protocol):
-    """What messages are read from."""
+    """A source of messages."""
 
     warning: str
 
@@ -35,11 +35,11 @@ class Log(Protocol):
 
 
 JUMP_TOPIC, JUMP_TYPE = "/time_jump", "std_msgs/msg/Int64"
-"""Where a run of the node holds the jumps of its time stamps [ns]: each holds for all that follows it."""
+"""Topic and type of the jumps of the time stamps [ns] in a run of the node: each holds from then on."""
 
 
 class _Place(NamedTuple):
-    """Where a channel is found: a field of a topic's messages, or a joint."""
+    """Place of a channel: a field of a topic's messages, or a joint."""
 
     topic: str
     path: str

@@ -23,7 +23,7 @@ from yawdamp_ros.nodes.parameter_files import check_parameter_file, parameter_fi
 from yawdamp_ros.nodes.stop_request import StopRequest
 
 HIGHEST_DOMAIN = 232
-"""Of ROS_DOMAIN_ID; above it port numbers end."""
+"""Largest ROS_DOMAIN_ID; above it port numbers end."""
 
 SPIN_PERIOD = 0.05
 """Longest time in s that the executor waits on end."""

@@ -1,4 +1,4 @@
-"""How a simulator is served: by a steady clock, services and parameters."""
+"""Serves a simulator by a steady clock, services and parameters."""
 
 import time
 

@@ -27,7 +27,7 @@ from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle
 
 @dataclass(frozen=True)
 class Steps:
-    """What `NonlinearDynamics.steps` gives.
+    """States and events of some steps.
 
     Attributes
     ----------
@@ -262,7 +262,7 @@ class NonlinearDynamics:
         )
 
     def outputs(self, states: FloatArray, inputs: FloatArray) -> Outputs:
-        """What is looked at of some states.
+        """Return the outputs of some states.
 
         Parameters
         ----------

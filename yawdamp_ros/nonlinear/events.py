@@ -1,4 +1,4 @@
-"""What happens to a combination at its limits: where it begins, and what it is called."""
+"""Events of a combination at its limits: detection and names."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

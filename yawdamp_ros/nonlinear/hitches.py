@@ -24,7 +24,7 @@ from yawdamp_ros.nonlinear.records import (
 FRICTION_RATE = 0.01
 """Articulation rate at which Coulomb friction is three quarters of its largest [rad/s]."""
 STOP_STIFFNESS = 5.0e6
-"""Of the contact of two units past their largest articulation [N m/rad]."""
+"""Stiffness of the contact of two units past their largest articulation [N m/rad]."""
 STOP_DAMPING = 2.0e5
 """In N m s/rad."""
 

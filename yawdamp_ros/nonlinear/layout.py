@@ -1,4 +1,4 @@
-"""Where each quantity stands in the state and in the input of the nonlinear model."""
+"""Places of the quantities in the state and in the input of the nonlinear model."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What is looked at of a motion: names, and values by state and input."""
+"""Outputs of the nonlinear model by state and input."""
 
 from typing import NamedTuple
 

@@ -98,7 +98,7 @@ class Parameters(NamedTuple):
 
 
 class Work(NamedTuple):
-    """What one evaluation of the equations of motion leaves behind.
+    """Intermediate results of one evaluation of the equations of motion.
 
     Attributes
     ----------

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Settings:
-    """What of the model takes part, and how the speed is held.
+    """Parts of the model that are active, and its speed controller.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a run on disk is: its outputs and their encoding, written, read, compared.
+"""Runs on disk: outputs and their encoding, written, read and compared.
 
 The names below load on first use: a node that writes a run does not need what reads one. Only what encodes
 messages imports ROS.

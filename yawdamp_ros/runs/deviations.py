@@ -8,7 +8,7 @@ _INDEX = re.compile(r"\[\d+\]")
 
 
 class Difference(NamedTuple):
-    """Where a run and its repetition part.
+    """First mismatch of a run and its repetition.
 
     Attributes
     ----------
