@@ -1,7 +1,7 @@
 """Many vehicles at once are what each is alone, whoever computes them."""
 
 import pickle
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
 import numpy as np
@@ -9,6 +9,7 @@ import pytest
 
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.analysis import MEASURES, AnalysisError, least_damping_ratio, rightmost
+from yawdamp_ros.analysis.nonlinear_measures import nonlinear_measure
 from yawdamp_ros.analysis.study import STUDIED, Study, draw, evaluate_all, grid
 from yawdamp_ros.vehicle import VehicleError, vehicle_text
 
@@ -80,6 +81,18 @@ def test_other_processes_give_the_same() -> None:
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
         elsewhere = np.concatenate(list(evaluate_all(chosen, points, executor.map)))
     np.testing.assert_allclose(elsewhere, chosen.evaluate(points), rtol=1e-9)
+
+
+def test_threads_give_what_each_vehicle_gives_alone_by_the_nonlinear_model() -> None:
+    points = np.array([[5e3], [1.2e4], [1.8e4], [2.4e4], [2.8e4], [3e4]])
+    chosen = study("rearward_amplification", "nonlinear", (("units.1.mass",),))
+    with ThreadPoolExecutor(2) as executor:
+        together = np.concatenate(list(evaluate_all(chosen, points, executor.map)))
+    alone = [
+        nonlinear_measure("rearward_amplification", load_vehicle("interlink", [f"units.1.mass={mass}"]))
+        for (mass,) in points.tolist()
+    ]
+    np.testing.assert_array_equal(together[:, 1], alone)
 
 
 def test_a_cluster_gives_the_same() -> None:

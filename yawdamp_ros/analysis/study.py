@@ -74,6 +74,11 @@ class Study:
             return _FEW
         return _LARGE_CHUNK if self.measure in _EIGENVALUES else _CHUNK
 
+    @property
+    def threads(self) -> bool:
+        """Whether the work is compiled and runs without Python's lock, side by side in threads."""
+        return self.model == NONLINEAR
+
     def check(self, points: FloatArray) -> None:
         """Refuse points that are no valid vehicles, before any work is done.
 

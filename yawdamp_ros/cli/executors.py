@@ -3,9 +3,18 @@
 import os
 import signal
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import BrokenExecutor, CancelledError, ProcessPoolExecutor
+from concurrent.futures import (
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
 from contextlib import contextmanager
+from functools import partial
 from multiprocessing import get_context, parent_process
 from typing import Any
 
@@ -16,22 +25,35 @@ Mapped = Callable[..., Iterable[Any]]
 WORTHWHILE = 8
 """Chunks for each process: starting one takes as long as working on a few."""
 
+AHEAD = 4
+"""Chunks under way for each worker: none waits for the next, and none of the answers piles up."""
+
+MOST_JOINING = 16
+"""Workers that may join a cluster after the start and still find work."""
+
 CONNECT_TIMEOUT = 10.0
 """In s, for the scheduler to answer."""
 
 
 @contextmanager
-def mapping(chunks: int, jobs: int | None, scheduler: str | None) -> Iterator[Mapped]:
-    """A `map` that is carried out by an executor.
+def mapping(
+    chunks: int, jobs: int | None, scheduler: str | None, *, threads: bool = False
+) -> Iterator[Mapped]:
+    """A `map` in order that is carried out by an executor.
+
+    It takes a few chunks ahead of those whose answers were asked for, so that memory does not grow with
+    their number.
 
     Parameters
     ----------
     chunks : int
         Pieces that the work comes in.
     jobs : int, optional
-        Processes, 1 being this one; unless given as many as there are cores and as are worthwhile.
+        Workers, 1 being this process alone; unless given as many as there are cores and as are worthwhile.
     scheduler : str, optional
         Address of a dask.distributed scheduler, whose workers then do the work.
+    threads : bool
+        Whether the work runs without Python's lock, so that threads of this process do it.
 
     Yields
     ------
@@ -42,26 +64,44 @@ def mapping(chunks: int, jobs: int | None, scheduler: str | None) -> Iterator[Ma
     UsageError
         If the scheduler cannot be reached, or a worker ends.
     """
-    processes = min(jobs, chunks) if jobs else min(os.cpu_count() or 1, chunks // WORTHWHILE)
-    if scheduler is None and processes <= 1:
+    worthwhile = chunks if threads else chunks // WORTHWHILE
+    workers = min(jobs, chunks) if jobs else min(os.cpu_count() or 1, worthwhile)
+    if scheduler is None and workers <= 1:
         yield map
         return
-    with _cluster(scheduler) if scheduler else _pool(processes) as mapped:
+    with _cluster(scheduler) if scheduler else _pool(workers, threads=threads) as mapped:
         yield mapped
 
 
 @contextmanager
-def _pool(processes: int) -> Iterator[Mapped]:
-    # Spawned: a fork of a process that has threads, as NumPy's BLAS does, can hang.
-    executor = ProcessPoolExecutor(processes, mp_context=get_context("spawn"), initializer=_set_up_worker)
+def _pool(workers: int, *, threads: bool) -> Iterator[Mapped]:
+    executor = (
+        ThreadPoolExecutor(workers)
+        if threads
+        # Spawned: a fork of a process that has threads, as NumPy's BLAS does, can hang.
+        else ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_set_up_worker)
+    )
     try:
-        yield executor.map
+        yield partial(_in_order, executor, AHEAD * workers)
     except BrokenExecutor as error:
         message = "a worker process ended before its work did; what is written stands"
         raise UsageError(message) from error
     finally:
         # A mere context would wait for chunks that nobody asks for any more.
         executor.shutdown(wait=True, cancel_futures=True)
+
+
+def _in_order(
+    executor: Executor, ahead: int, function: Callable[[Any], Any], items: Iterable[Any]
+) -> Iterator[Any]:
+    """Results of a function of each item, with so many items under way."""
+    pending: deque[Future[Any]] = deque()
+    for item in items:
+        pending.append(executor.submit(function, item))
+        if len(pending) > ahead:
+            yield pending.popleft().result()
+    while pending:
+        yield pending.popleft().result()
 
 
 def _set_up_worker() -> None:
@@ -91,8 +131,9 @@ def _cluster(address: str) -> Iterator[Mapped]:
         raise UsageError(message) from error
     with client:
         executor = client.get_executor(pure=False)
+        workers = sum(client.nthreads().values())
         try:
-            yield executor.map
+            yield partial(_in_order, executor, AHEAD * max(workers, MOST_JOINING))
         except (KilledWorker, CancelledError) as error:
             message = f"--scheduler: {address}: lost the work; what is written stands"
             raise UsageError(message) from error

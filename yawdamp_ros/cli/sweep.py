@@ -95,7 +95,7 @@ def _run(plan: Plan, columns: Sequence[str], options: argparse.Namespace) -> Flo
         bar = opened.enter_context(progress_bar("points"))
         task = bar.add_task("sweeping", total=len(points), completed=done)
         chunks = -(-(len(points) - done) // study.chunk)
-        mapped = opened.enter_context(mapping(chunks, options.jobs, options.scheduler))
+        mapped = opened.enter_context(mapping(chunks, options.jobs, options.scheduler, threads=study.threads))
         for answers in evaluate_all(study, points[done:], mapped):
             gathered.append(answers)
             if sink:
@@ -227,7 +227,12 @@ def _parser() -> argparse.ArgumentParser:
         "--plot", metavar="FILE", help="curve, map or histogram as PNG or SVG, by the file's name"
     )
     group = parser.add_argument_group("where")
-    group.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core)")
+    group.add_argument(
+        "--jobs",
+        type=int,
+        metavar="N",
+        help="processes, or threads of the nonlinear model (default: one a core)",
+    )
     group.add_argument(
         "--scheduler", metavar="tcp://HOST:PORT", help="workers of a dask.distributed scheduler"
     )

@@ -27,6 +27,8 @@ COMPILED = numba is not None
 def compiled(function: Function) -> Function:
     """Compile a function on its first call, keeping floating-point operations in their written order.
 
+    It runs without Python's lock, so that threads step vehicles side by side.
+
     Parameters
     ----------
     function : callable
@@ -50,7 +52,7 @@ def compiled(function: Function) -> Function:
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(directory or "")
     try:
-        made: Function = numba.njit(cache=directory is not None, error_model="numpy")(function)
+        made: Function = numba.njit(cache=directory is not None, nogil=True, error_model="numpy")(function)
     finally:
         numba.config.CACHE_DIR = before
     return made

@@ -10,8 +10,8 @@ from yawdamp_ros.dynamics.kinematics import FloatArray, IntArray
 from yawdamp_ros.nonlinear.errors import NonlinearError
 from yawdamp_ros.nonlinear.events import NEVER, Event, event_count, named_events
 from yawdamp_ros.nonlinear.layout import FRICTION_LEFT, FRICTION_RIGHT, SPEED, InputLayout, StateLayout
-from yawdamp_ros.nonlinear.motion import DIVERGED, ROLLED_OVER, rates, rk4_steps
-from yawdamp_ros.nonlinear.outputs import Outputs, empty_outputs, write_outputs
+from yawdamp_ros.nonlinear.motion import DIVERGED, ROLLED_OVER, all_outputs, rates, rk4_steps
+from yawdamp_ros.nonlinear.outputs import Outputs, empty_outputs
 from yawdamp_ros.nonlinear.parameters import parameters
 from yawdamp_ros.nonlinear.records import (
     NOMINAL_FRICTION,
@@ -273,15 +273,20 @@ class NonlinearDynamics:
         Returns
         -------
         Outputs
+
+        Raises
+        ------
+        NonlinearError
+            If the inputs do not fit the states.
         """
-        rows = np.broadcast_to(np.atleast_2d(inputs), (len(states), self.input_layout.size))
-        made = empty_outputs(len(states), self.layout.units, self.layout.axles)
-        work, out = self._work(), np.zeros(self.layout.size)
+        # Copies: what NumPy shares may not be written, which Numba takes for another type.
+        every, rows = np.array(states, float, order="C"), np.array(np.atleast_2d(inputs), float, order="C")
+        if len(rows) not in {1, len(every)}:
+            message = f"{len(every)} states: expected a row of inputs for each or one for all"
+            raise NonlinearError(message)
+        made = empty_outputs(len(every), self.layout.units, self.layout.axles)
         with np.errstate(all="ignore"):
-            for place, (state, row) in enumerate(zip(states, rows, strict=True)):
-                # Copies: what NumPy shares may not be written, which Numba takes for another type.
-                rates(np.array(state), np.array(row), self.parameters, work, out)
-                write_outputs(made, place, state, self.parameters, work)
+            all_outputs(made, every, rows, self.parameters, self._work(), np.zeros(self.layout.size))
         return made
 
     def _work(self) -> Work:

@@ -9,6 +9,7 @@ from yawdamp_ros.nonlinear.events import note_events
 from yawdamp_ros.nonlinear.hitches import hitch_moments
 from yawdamp_ros.nonlinear.layout import CROSSFALL, GRADE, YAW, roll_index, speed_index
 from yawdamp_ros.nonlinear.loads import vertical_loads
+from yawdamp_ros.nonlinear.outputs import Outputs, write_outputs
 from yawdamp_ros.nonlinear.records import (
     ACCELERATION_X,
     ACCELERATION_Y,
@@ -176,6 +177,29 @@ def rk4_steps(
         if (step + 1) % every == 0:
             samples[(step + 1) // every - 1] = state
     return steps, DONE, -1
+
+
+@compiled
+def all_outputs(
+    outputs: Outputs, states: FloatArray, inputs: FloatArray, p: Parameters, w: Work, out: FloatArray
+) -> None:
+    """Write the outputs of some states.
+
+    Parameters
+    ----------
+    outputs : Outputs
+        Of as many instants as there are states, written.
+    states : ndarray, shape (k, m)
+    inputs : ndarray, shape (k, j) or (1, j)
+        A row for each state, or one for all.
+    p, w
+    out : ndarray, shape (m,)
+        Scratch.
+    """
+    for place in range(states.shape[0]):
+        row = inputs[place] if inputs.shape[0] > 1 else inputs[0]
+        rates(states[place], row, p, w, out)
+        write_outputs(outputs, place, states[place], p, w)
 
 
 @compiled

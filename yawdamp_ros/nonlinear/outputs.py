@@ -1,11 +1,13 @@
 """Outputs of the nonlinear model by state and input."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.nonlinear.layout import StateLayout, roll_index
+from yawdamp_ros.nonlinear.compiled import compiled
+from yawdamp_ros.nonlinear.layout import YAW, X, Y, roll_index
 from yawdamp_ros.nonlinear.records import (
     ACCELERATION_X,
     ACCELERATION_Y,
@@ -101,53 +103,66 @@ def empty_outputs(count: int, units: int, axles: int) -> Outputs:
     return Outputs(*(np.zeros(shape) for shape in shapes))
 
 
+@compiled
 def write_outputs(outputs: Outputs, place: int, state: FloatArray, p: Parameters, w: Work) -> None:
     """Write one instant, from the work arrays of its evaluation."""
-    units = len(p.units)
-    layout = StateLayout(units, len(p.axles))
-    c, s = w.units[:, COSINE], w.units[:, SINE]
-    yaw = state[2] - np.concatenate([[0.0], np.cumsum(state[layout.articulation])])
-    outputs.yaw[place] = yaw
-    outputs.position[place] = ground_points(state, p)
-    outputs.velocity[place] = w.units[:, [VELOCITY_X, VELOCITY_Y]]
-    outputs.yaw_rate[place] = state[layout.yaw_rate]
-    outputs.acceleration[place] = _turned(w.units[:, [ACCELERATION_X, ACCELERATION_Y]], c, s)
-    outputs.roll[place] = state[layout.roll]
-    outputs.roll_rate[place] = state[layout.roll_rate]
-    left, right = w.wheels[0::2, LOAD], w.wheels[1::2, LOAD]
-    both = np.add.reduceat(left + right, p.first_axle[:-1])
-    shifted = np.add.reduceat(right - left, p.first_axle[:-1])
-    outputs.load_transfer_ratio[place] = np.divide(shifted, both, out=np.zeros(units), where=both > 0.0)
-    outputs.articulation[place] = state[layout.articulation]
-    outputs.hitch_force[place, :, :2] = _turned(w.units[1:, [HITCH_FORCE_X, HITCH_FORCE_Y]], c[:-1], s[:-1])
-    outputs.hitch_force[place, :, 2] = w.units[1:, CARRIED]
-    outputs.wheel_load[place] = w.wheels[:, LOAD]
-    outputs.slip[place] = w.wheels[:, SLIP]
-    outputs.slide[place] = w.wheels[:, SLIDE]
-    outputs.longitudinal_force[place] = w.wheels[:, LONGITUDINAL_FORCE]
-    outputs.lateral_force[place] = w.wheels[:, LATERAL_FORCE]
-
-
-def ground_points(state: FloatArray, p: Parameters) -> FloatArray:
-    """Position of every unit's ground point [m], shape (n, 2), by the exact chain."""
-    units = len(p.units)
+    unit_table, axle_table, unit_work, wheel_work = p.units, p.axles, w.units, w.wheels
+    units, axles = unit_table.shape[0], axle_table.shape[0]
     rolls = roll_index(units)
-    lean = np.sin(state[rolls : rolls + units])
-    points = np.zeros(units, dtype=np.complex128)
-    points[0] = complex(state[0], state[1])
-    heading = state[2]
+    yaw = state[YAW]
+    _write_ground_points(outputs.position[place], state, p)
+    for unit in range(units):
+        if unit > 0:
+            yaw -= state[2 + unit]
+            c, s = unit_work[unit - 1, COSINE], unit_work[unit - 1, SINE]
+            outputs.articulation[place, unit - 1] = state[2 + unit]
+            force = outputs.hitch_force[place, unit - 1]
+            along, across = unit_work[unit, HITCH_FORCE_X], unit_work[unit, HITCH_FORCE_Y]
+            force[0], force[1], force[2] = (
+                c * along + s * across,
+                c * across - s * along,
+                unit_work[unit, CARRIED],
+            )
+        c, s = unit_work[unit, COSINE], unit_work[unit, SINE]
+        outputs.yaw[place, unit] = yaw
+        outputs.velocity[place, unit, 0] = unit_work[unit, VELOCITY_X]
+        outputs.velocity[place, unit, 1] = unit_work[unit, VELOCITY_Y]
+        outputs.yaw_rate[place, unit] = state[4 + units + unit]
+        along, across = unit_work[unit, ACCELERATION_X], unit_work[unit, ACCELERATION_Y]
+        outputs.acceleration[place, unit, 0] = c * along + s * across
+        outputs.acceleration[place, unit, 1] = c * across - s * along
+        outputs.roll[place, unit] = state[rolls + unit]
+        outputs.roll_rate[place, unit] = state[rolls + units + unit]
+        both = shifted = 0.0
+        for axle in range(p.first_axle[unit], p.first_axle[unit + 1]):
+            left, right = wheel_work[2 * axle, LOAD], wheel_work[2 * axle + 1, LOAD]
+            both += left + right
+            shifted += right - left
+        outputs.load_transfer_ratio[place, unit] = shifted / both if both > 0.0 else 0.0
+    for wheel in range(2 * axles):
+        outputs.wheel_load[place, wheel] = wheel_work[wheel, LOAD]
+        outputs.slip[place, wheel] = wheel_work[wheel, SLIP]
+        outputs.slide[place, wheel] = wheel_work[wheel, SLIDE]
+        outputs.longitudinal_force[place, wheel] = wheel_work[wheel, LONGITUDINAL_FORCE]
+        outputs.lateral_force[place, wheel] = wheel_work[wheel, LATERAL_FORCE]
+
+
+@compiled
+def _write_ground_points(points: FloatArray, state: FloatArray, p: Parameters) -> None:
+    """Position of every unit's ground point [m], shape (n, 2), by the exact chain."""
+    unit_table = p.units
+    units = unit_table.shape[0]
+    rolls = roll_index(units)
+    x, y, heading = state[X], state[Y], state[YAW]
+    points[0, 0], points[0, 1] = x, y
     for unit in range(1, units):
-        ahead = np.exp(1j * heading)
+        c, s = math.cos(heading), math.sin(heading)
+        along = unit_table[unit - 1, REAR_HITCH]
+        left = -unit_table[unit - 1, REAR_ARM] * math.sin(state[rolls + unit - 1])
+        x, y = x + c * along - s * left, y + s * along + c * left
         heading -= state[2 + unit]
-        own = np.exp(1j * heading)
-        points[unit] = (
-            points[unit - 1]
-            + (p.units[unit - 1, REAR_HITCH] - 1j * p.units[unit - 1, REAR_ARM] * lean[unit - 1]) * ahead
-            - (p.units[unit, FRONT_HITCH] - 1j * p.units[unit, FRONT_ARM] * lean[unit]) * own
-        )
-    return np.column_stack([points.real, points.imag])
-
-
-def _turned(vectors: FloatArray, c: FloatArray, s: FloatArray) -> FloatArray:
-    """Vectors of the lead unit's frame in frames turned against it."""
-    return np.column_stack([c * vectors[:, 0] + s * vectors[:, 1], c * vectors[:, 1] - s * vectors[:, 0]])
+        c, s = math.cos(heading), math.sin(heading)
+        along = -unit_table[unit, FRONT_HITCH]
+        left = unit_table[unit, FRONT_ARM] * math.sin(state[rolls + unit])
+        x, y = x + c * along - s * left, y + s * along + c * left
+        points[unit, 0], points[unit, 1] = x, y

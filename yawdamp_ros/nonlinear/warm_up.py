@@ -3,6 +3,8 @@
 `make setup` runs it. Numba keeps the machine code in a cache that every later process loads.
 """
 
+import numpy as np
+
 from yawdamp_ros.nonlinear.dynamics import NonlinearDynamics
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle
 
@@ -14,6 +16,7 @@ def warm_up() -> None:
     state, inputs = dynamics.initial_state(10.0), dynamics.inputs()
     dynamics.steps(state, inputs, 0.001, 1)
     dynamics.derivatives(state, inputs)
+    dynamics.outputs(state[np.newaxis], inputs)
 
 
 if __name__ == "__main__":
