@@ -26,12 +26,13 @@ def nodes(context: LaunchContext) -> list[Node | RegisterEventHandler]:
     if given("speed"):
         parameters["speed"] = float(given("speed"))
     files = [given("params_file")] if given("params_file") else []
+    until = ["--duration", given("duration")] if given("duration") else []
     replay = Node(
         package="yawdamp_ros",
         executable="replay",
         namespace=given("namespace"),
         output="screen",
-        arguments=[given("log"), "--steering-ratio", given("steering_ratio")],
+        arguments=[given("log"), "--steering-ratio", given("steering_ratio"), *until],
     )
     simulator = Node(
         package="yawdamp_ros",
@@ -65,6 +66,9 @@ def generate_launch_description() -> LaunchDescription:
             ),
             DeclareLaunchArgument("vehicle", default_value="", description="builtin name or file"),
             DeclareLaunchArgument("speed", default_value="", description="in m/s; empty: the vehicle's own"),
+            DeclareLaunchArgument(
+                "duration", default_value="", description="of the log in s; empty: all of it"
+            ),
             DeclareLaunchArgument("params_file", default_value="", description="YAML file of parameters"),
             DeclareLaunchArgument("namespace", default_value="", description="of all topics and frames"),
             DeclareLaunchArgument("record", default_value="true", description="record the run"),

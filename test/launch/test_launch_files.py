@@ -47,7 +47,10 @@ def test_each_launch_file_is_there_and_valid_python(name: str) -> None:
             "sim.launch.py",
             {"params_file", "namespace", "speed", "steering_type", "duration", "use_sim_time", "vehicle"},
         ),
-        ("replay.launch.py", {"log", "params_file", "namespace", "speed", "vehicle", "steering_ratio"}),
+        (
+            "replay.launch.py",
+            {"log", "params_file", "namespace", "speed", "vehicle", "steering_ratio", "duration"},
+        ),
     ],
 )
 def test_each_takes_the_arguments_that_it_names(name: str, arguments: set[str]) -> None:

@@ -39,3 +39,15 @@ def test_where_nothing_can_be_written_that_is_said_and_it_goes_on(
         return 2.0 * value
 
     assert compiled.compiled(twice)(1.5) == 3.0
+
+
+def test_a_first_compilation_is_announced_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    announce = compiled.announce_compilation.__wrapped__
+    monkeypatch.setattr(compiled, "cache_directory", lambda: tmp_path)
+    announce()
+    assert caplog.messages == ["the nonlinear model is compiled for its first use here: half a minute"]
+    (tmp_path / "chain.nbi").touch()
+    announce()
+    assert len(caplog.records) == 1

@@ -20,7 +20,7 @@ from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.drives import DEFAULT, Drive, Identification, identify
 from yawdamp_ros.drives.identification import predictor_of
 from yawdamp_ros.simulation import MODELS
-from yawdamp_ros.vehicle import VehicleSource, vehicle_text
+from yawdamp_ros.vehicle import vehicle_source
 
 ESTIMATE_COLUMNS = ("parameter", "value", "95 % interval", "unit")
 
@@ -34,7 +34,7 @@ def main(arguments: Sequence[str]) -> int:
         drive = drive.without("speed", "acceleration")
     found = identify(
         drive,
-        VehicleSource(vehicle_text(chosen_name(options)), tuple(overrides(options))),
+        vehicle_source(chosen_name(options), overrides(options)),
         options.fit or DEFAULT,
         predictor=predictor_of(options.model or DEFAULT_MODEL),
         fitted_share=options.share,

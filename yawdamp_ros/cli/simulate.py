@@ -46,7 +46,7 @@ from yawdamp_ros.simulation import (
     make_motion,
 )
 from yawdamp_ros.stepping import Motion, Sample, TimeGrid, Verdict
-from yawdamp_ros.vehicle import Vehicle, VehicleSource, vehicle_text
+from yawdamp_ros.vehicle import Vehicle, vehicle_source
 
 DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
@@ -206,7 +206,7 @@ def _run_sink(
     from yawdamp_ros.runs.recipe import Recipe, RunFile  # noqa: PLC0415
 
     encoder = Encoder(motion, settings, grid, start_time=0)
-    source = VehicleSource(vehicle_text(chosen_name(options)), tuple(options.set))
+    source = vehicle_source(chosen_name(options), options.set)
     recipe = Recipe(
         motion, grid, settings, source, stamps=encoder.stamps, types=encoder.types, frames=encoder.frames
     )

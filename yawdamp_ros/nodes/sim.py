@@ -18,7 +18,7 @@ from yawdamp_ros.runs.encoder import Encoder
 from yawdamp_ros.runs.recipe import Recipe
 from yawdamp_ros.simulation import Commands, Limits, LinearRange, Run, SimParameters, Sink, Stop, make_motion
 from yawdamp_ros.stepping import Sample, TimeGrid
-from yawdamp_ros.vehicle import VehicleSource, examined_vehicle, vehicle_text
+from yawdamp_ros.vehicle import examined_vehicle, vehicle_source
 
 
 class Simulator:
@@ -41,8 +41,8 @@ class Simulator:
         self.settings = settings = declare_parameters(node)
         # Read once: the file may change or go while the node runs, but its vehicle does not.
         changes = tuple(change for change in settings.vehicle_overrides if change)
-        source = VehicleSource(vehicle_text(settings.vehicle), changes)
-        vehicle, doubts = examined_vehicle(source.text, settings.vehicle, changes)
+        source = vehicle_source(settings.vehicle, changes)
+        vehicle, doubts = examined_vehicle(source.text, settings.vehicle, source.overrides)
         self._doubts = doubts
         self.grid = TimeGrid.of(settings.step_size, 1.0 / settings.publish_rate)
         self.motion = make_motion(vehicle, settings.model, settings.speed, self.grid.step_size)

@@ -85,3 +85,11 @@ def cache_directory() -> Path | None:
         "no cache can be written: the nonlinear model is compiled anew in each process, half a minute"
     )
     return None
+
+
+@cache
+def announce_compilation() -> None:
+    """Log, once in a process, that the functions are about to be compiled; not where a cache holds them."""
+    directory = cache_directory() if COMPILED else None
+    if directory is not None and not any(directory.rglob("*.nbi")):
+        LOGGER.warning("the nonlinear model is compiled for its first use here: half a minute")

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from yawdamp_ros.dynamics.kinematics import FloatArray, IntArray
+from yawdamp_ros.nonlinear.compiled import announce_compilation
 from yawdamp_ros.nonlinear.errors import NonlinearError
 from yawdamp_ros.nonlinear.events import NEVER, Event, event_count, named_events
 from yawdamp_ros.nonlinear.layout import FRICTION_LEFT, FRICTION_RIGHT, SPEED, InputLayout, StateLayout
@@ -74,6 +75,9 @@ class NonlinearDynamics:
 
     vehicle: Vehicle
     settings: Settings = field(default_factory=Settings)
+
+    def __post_init__(self) -> None:
+        announce_compilation()
 
     @cached_property
     def parameters(self) -> Parameters:

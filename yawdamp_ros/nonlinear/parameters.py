@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.nonlinear.errors import NonlinearError
 from yawdamp_ros.nonlinear.records import (
     AXLE_COLUMNS,
     BRAKE_LIMIT,
@@ -66,7 +67,15 @@ from yawdamp_ros.nonlinear.records import (
     Parameters,
 )
 from yawdamp_ros.nonlinear.settings import Settings
-from yawdamp_ros.vehicle import Axle, MagicFormula, Vehicle, complete, static_loads, supports
+from yawdamp_ros.vehicle import (
+    STANDARD_GRAVITY,
+    Axle,
+    MagicFormula,
+    Vehicle,
+    complete,
+    static_loads,
+    supports,
+)
 from yawdamp_ros.vehicle.tyres import POUNDS_FORCE_PER_NEWTON
 
 AIR_DENSITY = 1.2
@@ -79,6 +88,8 @@ It leaves 0.6 of the lateral force.
 NO_ABS = 2.0
 """Without ABS: beyond twice the friction more demand makes no difference."""
 COEFFICIENTS = 23
+LOAD_MISMATCH = 0.02
+"""Share of the weight by which the axles' static loads may miss it; printed ones do by 0.0004."""
 
 
 def parameters(vehicle: Vehicle, settings: Settings) -> Parameters:
@@ -93,9 +104,15 @@ def parameters(vehicle: Vehicle, settings: Settings) -> Parameters:
     Returns
     -------
     records.Parameters
+
+    Raises
+    ------
+    NonlinearError
+        If the static loads do not carry the weight.
     """
     full = complete(vehicle)
     loads = static_loads(vehicle)
+    _check_carried(vehicle, sum(load for each in loads for load in each.axles))
     with_roll = settings.roll and settings.track
     first = np.cumsum([0, *(len(unit.axles) for unit in full.units)])
     return Parameters(
@@ -105,6 +122,20 @@ def parameters(vehicle: Vehicle, settings: Settings) -> Parameters:
         scalars=_scalars(full, settings, with_roll=with_roll),
         first_axle=first.astype(np.int64),
     )
+
+
+def _check_carried(vehicle: Vehicle, carried: float) -> None:
+    """Refuse given loads that leave weight in the air, as those of a file whose mass alone was changed."""
+    if any(axle.static_load is None for unit in vehicle.units for axle in unit.axles):
+        return
+    weight = STANDARD_GRAVITY * sum(unit.mass for unit in vehicle.units)
+    if abs(carried - weight) > LOAD_MISMATCH * weight:
+        tonnes, mass = (force / STANDARD_GRAVITY / 1000.0 for force in (carried, weight))
+        message = (
+            f"{vehicle.name}: the axles carry {tonnes:.4g} t at rest, the units' masses sum to {mass:.4g} t: "
+            "change each static_load with the mass, or add a load to the unit, which axles share by statics"
+        )
+        raise NonlinearError(message)
 
 
 def _unit_table(full: Vehicle, hitch_loads: Sequence[float], *, with_roll: bool) -> FloatArray:

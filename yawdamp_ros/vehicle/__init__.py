@@ -13,6 +13,7 @@ from yawdamp_ros.vehicle.load import (
 )
 from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Axle, Unit, Vehicle, unstacked
 from yawdamp_ros.vehicle.plausibility import Suspicion, suspicions
+from yawdamp_ros.vehicle.source import vehicle_source
 from yawdamp_ros.vehicle.statics import StaticLoads, Supports, static_loads, supports
 from yawdamp_ros.vehicle.tir import MagicFormula, parse_tir, read_tir
 from yawdamp_ros.vehicle.tyres import fancher_stiffness, printed_stiffness
@@ -45,5 +46,6 @@ __all__ = [
     "supports",
     "suspicions",
     "unstacked",
+    "vehicle_source",
     "vehicle_text",
 ]

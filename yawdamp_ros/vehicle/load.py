@@ -168,7 +168,7 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     VehicleError
         If the text or an override is not valid.
     """
-    data = _overridden(text, source, overrides)
+    data = overridden_data(text, source, overrides)
     if overrides or not _is_builtin(text, source):
         _check_schema(data, source)
     _check_combination(data, source)
@@ -183,7 +183,7 @@ def value_at(vehicle: VehicleSource, key: str, source: str = "vehicle") -> float
     VehicleError
         If there is no number there.
     """
-    node = _overridden(vehicle.text, source, vehicle.overrides)
+    node = overridden_data(vehicle.text, source, vehicle.overrides)
     try:
         for part in key.split("."):
             node = node[int(part)] if isinstance(node, list) else node[part]
@@ -215,7 +215,7 @@ def load_stack(
     VehicleError
         If the text, an override or any of the values is not valid.
     """
-    data = _overridden(text, source, overrides)
+    data = overridden_data(text, source, overrides)
     # The schema holds each key to a range: a stack keeps to it if its extremes do.
     for extreme in (np.min, np.max):
         for key, column in values.items():
@@ -227,7 +227,8 @@ def load_stack(
     return _build(data, source)
 
 
-def _overridden(text: str, source: str, overrides: Sequence[str]) -> Any:  # noqa: ANN401
+def overridden_data(text: str, source: str, overrides: Sequence[str]) -> Any:  # noqa: ANN401
+    """Parse the text of a vehicle file and change the keys that overrides name; nothing else is checked."""
     data = _parse_yaml(text, source)
     for override in overrides:
         key, separator, value = override.partition("=")
@@ -336,12 +337,12 @@ def _given(data: dict[str, Any], keys: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def _tyre(tyre: str | None, source: str) -> Any:  # noqa: ANN401
-    if tyre is None or not tyre.endswith(".tir"):
+def _tyre(tyre: Any, source: str) -> Any:  # noqa: ANN401
+    if tyre in {None, "brush", "linear"}:
         return tyre
-    from yawdamp_ros.vehicle.tir import read_tir  # noqa: PLC0415 - few vehicles have one
+    from yawdamp_ros.vehicle.tir import parse_tir, read_tir  # noqa: PLC0415 - few vehicles have one
 
-    return read_tir(Path(source).parent / tyre)
+    return parse_tir(tyre, f"{source}: tyre") if "\n" in tyre else read_tir(Path(source).parent / tyre)
 
 
 def _added_loads(units: Sequence[dict[str, Any]], source: str) -> list[list[Any]]:

@@ -14,7 +14,7 @@ only what the loads add is computed, because printed axle loads need not follow 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Vehicle
+from yawdamp_ros.vehicle.model import STANDARD_GRAVITY
 
 Number = Any
 """A float, or an array that holds one for each vehicle of a stack: the formulas are the same."""
@@ -85,45 +85,6 @@ def added_axle_loads(units: Sequence[dict[str, Any]]) -> list[list[Number]]:
             ],
         )
     return added
-
-
-def static_axle_loads(vehicle: Vehicle) -> list[list[float]]:
-    """Static load of every axle of a vehicle that stands on level ground.
-
-    Axles of a group share evenly. The groups are the steered and the other axles of the lead unit, and all
-    axles of a towed one, with its hitch; a lead unit without two groups that stand apart has the mean load on
-    each axle.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-        One vehicle, no stack, each front hitch ahead of the axles behind it.
-
-    Returns
-    -------
-    list of list of float
-        Of each axle of each unit [N]; negative where an axle would lift off.
-
-    Examples
-    --------
-    >>> from yawdamp_ros import load_vehicle
-    >>> [round(load) for load in static_axle_loads(load_vehicle("a_double"))[0]]  # of the tractor
-    [71632, 82560, 82560]
-    """
-    units: list[dict[str, Any]] = []
-    for unit in vehicle.units:
-        axles = [{"position": axle.position, "steered": axle.steered} for axle in unit.axles]
-        hitches = {"front_hitch": unit.front_hitch, "rear_hitch": unit.rear_hitch}
-        units.append(
-            {"axles": axles, "load": [{"mass": unit.mass, "position": 0.0}]}
-            | {name: hitch for name, hitch in hitches.items() if hitch is not None}
-        )
-    front, rear = _supports(units[0], towed=False)
-    if not (front and rear) or _centre(units[0], front) == _centre(units[0], rear):
-        axle_count = sum(len(unit.axles) for unit in vehicle.units)
-        mean = STANDARD_GRAVITY * sum(unit.mass for unit in vehicle.units) / axle_count
-        return [[mean] * len(unit.axles) for unit in vehicle.units]
-    return added_axle_loads(units)
 
 
 def static_load(axle: dict[str, Any], added: Number) -> Number | None:

@@ -11,8 +11,8 @@ from itertools import chain
 from typing import NamedTuple
 
 from yawdamp_ros.vehicle.errors import VehicleError
-from yawdamp_ros.vehicle.loads import static_axle_loads
 from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Unit, Vehicle
+from yawdamp_ros.vehicle.statics import static_loads
 
 AXLE_LOADS = (1.0, 20.0)
 """Plausible static load of an axle [t]."""
@@ -213,24 +213,14 @@ def _masses(vehicle: Vehicle) -> Iterator[Suspicion]:
 
 def _axles(vehicle: Vehicle) -> Iterator[Suspicion]:
     mean = _mean_load(vehicle)
-    for index, (unit, loads) in enumerate(zip(vehicle.units, static_axle_loads(vehicle), strict=True)):
-        for place, (axle, load) in enumerate(zip(unit.axles, loads, strict=True)):
+    for index, (unit, loads) in enumerate(
+        zip(vehicle.units, static_loads(vehicle, given=False), strict=True)
+    ):
+        for place, (axle, load) in enumerate(zip(unit.axles, loads.axles, strict=True)):
             key = f"units.{index}.axles.{place}"
             tonnes = load / STANDARD_GRAVITY / 1000.0
             if not AXLE_LOADS[0] <= tonnes <= AXLE_LOADS[1]:
-                low, high = AXLE_LOADS
-                guess = (
-                    "; it would lift off: is a hitch or an axle on the wrong side?"
-                    if load <= 0.0
-                    else "; is the mass in tonnes?"
-                    if low <= 1000.0 * tonnes <= high
-                    else ""
-                )
-                yield Suspicion(
-                    "axle load",
-                    key,
-                    f"static axle load {tonnes:.3g} t: expected {low:g} to {high:g} t{guess}",
-                )
+                yield Suspicion("axle load", key, _axle_load_problem(tonnes))
             yield from _stiffness(key, axle.cornering_stiffness, load, mean)
 
 

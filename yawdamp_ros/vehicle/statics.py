@@ -63,7 +63,7 @@ def supports(unit: Unit) -> Supports:
     return Supports(centre(steered), centre(others), steered, others)
 
 
-def static_loads(vehicle: Vehicle) -> tuple[StaticLoads, ...]:
+def static_loads(vehicle: Vehicle, *, given: bool = True) -> tuple[StaticLoads, ...]:
     """Loads of every axle and hitch at rest.
 
     Axles of one support share it alike. Where all axles of a unit have a `static_load`, that is taken, and
@@ -72,6 +72,8 @@ def static_loads(vehicle: Vehicle) -> tuple[StaticLoads, ...]:
     Parameters
     ----------
     vehicle : Vehicle
+    given : bool
+        Whether loads of the file are taken; else all follow from masses and positions.
 
     Returns
     -------
@@ -87,18 +89,17 @@ def static_loads(vehicle: Vehicle) -> tuple[StaticLoads, ...]:
     found: list[StaticLoads] = []
     behind = 0.0
     for unit in reversed(vehicle.units):
-        loads = _unit_loads(unit, behind)
+        loads = _unit_loads(unit, behind, given=given)
         behind = loads.front_hitch
         found.insert(0, loads)
     return tuple(found)
 
 
-def _unit_loads(unit: Unit, behind: float) -> StaticLoads:
+def _unit_loads(unit: Unit, behind: float, *, given: bool) -> StaticLoads:
     weight = STANDARD_GRAVITY * unit.mass
-    given = [axle.static_load for axle in unit.axles]
+    loads = tuple(axle.static_load for axle in unit.axles if axle.static_load is not None)
     towed = unit.front_hitch is not None
-    if None not in given:
-        loads = tuple(load for load in given if load is not None)
+    if given and len(loads) == len(unit.axles):
         return StaticLoads(loads, weight + behind - sum(loads) if towed else 0.0)
     held = supports(unit)
     on_front = 0.0

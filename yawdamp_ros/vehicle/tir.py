@@ -80,13 +80,32 @@ def read_tir(path: Path) -> MagicFormula:
         If there is no such file, or it is not a valid one; the message names file, line or key, and what was
         expected.
     """
+    return parse_tir(tir_text(path), str(path))
+
+
+def tir_text(path: Path) -> str:
+    """Read the text of a tyre property file.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    str
+        Ending with a line break.
+
+    Raises
+    ------
+    VehicleError
+        If it cannot be read.
+    """
     try:
-        text = read_text(path, LARGEST_FILE)
+        return read_text(path, LARGEST_FILE) + "\n"
     except OSError as error:
         raise VehicleError(str(path), "", f"cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise VehicleError(str(path), "", "not UTF-8 text; expected a .tir file") from error
-    return parse_tir(text, str(path))
 
 
 def parse_tir(text: str, source: str) -> MagicFormula:
