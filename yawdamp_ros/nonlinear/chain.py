@@ -24,6 +24,7 @@ from yawdamp_ros.nonlinear.records import (
     FRONT_HITCH,
     HITCH_FORCE_X,
     HITCH_FORCE_Y,
+    LEAN,
     MASS,
     REAR_ARM,
     REAR_HITCH,
@@ -34,6 +35,7 @@ from yawdamp_ros.nonlinear.records import (
     THROUGH_ROLL_Y,
     THROUGH_YAW_X,
     THROUGH_YAW_Y,
+    UPRIGHT,
     VELOCITY_X,
     VELOCITY_Y,
     WITH_ROLL,
@@ -57,6 +59,7 @@ def chain_kinematics(state: FloatArray, p: Parameters, w: Work) -> None:
         yaw_rate = state[4 + units + unit]
         roll, roll_rate = state[rolls + unit], state[rolls + units + unit]
         lean, upright = math.sin(roll), math.cos(roll)
+        unit_work[unit, LEAN], unit_work[unit, UPRIGHT] = lean, upright
         if unit > 0:
             heading -= state[2 + unit]
         c, s = math.cos(heading), math.sin(heading)
@@ -121,8 +124,8 @@ def equations_of_motion(
     for back in range(units):
         unit = units - 1 - back
         own = unit_table[unit, MASS]
-        roll, roll_rate = state[rolls + unit], state[rolls + units + unit]
-        lean, upright = math.sin(roll), math.cos(roll)
+        roll_rate = state[rolls + units + unit]
+        lean, upright = unit_work[unit, LEAN], unit_work[unit, UPRIGHT]
         c, s = unit_work[unit, COSINE], unit_work[unit, SINE]
         along, front, arm = (
             -unit_table[unit, FRONT_HITCH],
@@ -236,15 +239,14 @@ def solve_in_place(matrix: FloatArray, vector: FloatArray, size: int) -> None:
 
 
 @compiled
-def unit_accelerations(state: FloatArray, pull_x: float, pull_y: float, p: Parameters, w: Work) -> None:
+def unit_accelerations(pull_x: float, pull_y: float, p: Parameters, w: Work) -> None:
     """Accelerations of the CGs from the solution, and the forces in the hitches."""
     unit_table, scalars, unit_work = p.units, p.scalars, w.units
     units = unit_table.shape[0]
-    rolls = roll_index(units)
     q = w.solution
     ax, ay = q[0], q[1]
     for unit in range(units):
-        lean, upright = math.sin(state[rolls + unit]), math.cos(state[rolls + unit])
+        lean, upright = unit_work[unit, LEAN], unit_work[unit, UPRIGHT]
         c, s = unit_work[unit, COSINE], unit_work[unit, SINE]
         along, arm = -unit_table[unit, FRONT_HITCH], unit_table[unit, FRONT_ARM] - unit_table[unit, CG_ARM]
         side = arm * lean

@@ -12,6 +12,7 @@ from yawdamp_ros.nonlinear.records import (
     HITCH_FRICTION,
     HITCH_ROLL_DAMPING,
     HITCH_ROLL_STIFFNESS,
+    LEAN,
     MAX_ARTICULATION,
     REAR_ARM,
     ROLL_MOMENT,
@@ -56,10 +57,9 @@ def hitch_moments(state: FloatArray, p: Parameters, w: Work) -> None:
                 + unit_table[joint, HITCH_ROLL_DAMPING] * twist_rate
             )
             load = unit_work[joint + 1, CARRIED]
-            unit_work[joint, ROLL_MOMENT] += load * unit_table[joint, REAR_ARM] * math.sin(ahead) - roll
-            unit_work[joint + 1, ROLL_MOMENT] += roll * cosine - load * unit_table[
-                joint + 1, FRONT_ARM
-            ] * math.sin(behind)
+            front, rear = unit_table[joint, REAR_ARM], unit_table[joint + 1, FRONT_ARM]
+            unit_work[joint, ROLL_MOMENT] += load * front * unit_work[joint, LEAN] - roll
+            unit_work[joint + 1, ROLL_MOMENT] += roll * cosine - load * rear * unit_work[joint + 1, LEAN]
             moment -= roll * behind * sine
         unit_work[joint, YAW_MOMENT] += moment
         unit_work[joint + 1, YAW_MOMENT] -= moment

@@ -76,7 +76,7 @@ def rates(state: FloatArray, inputs: FloatArray, p: Parameters, w: Work, out: Fl
         unit_work[unit, FORCE_X] = unit_work[unit, COSINE] * forward - unit_work[unit, SINE] * left
         unit_work[unit, FORCE_Y] = unit_work[unit, SINE] * forward + unit_work[unit, COSINE] * left
     equations_of_motion(state, pull_x, pull_y, fall, p, w)
-    unit_accelerations(state, pull_x, pull_y, p, w)
+    unit_accelerations(pull_x, pull_y, p, w)
     q, u, v, yaw_rate = w.solution, state[speed], state[speed + 1], state[4 + units]
     out[0], out[1], out[YAW] = c * u - s * v, s * u + c * v, yaw_rate
     out[speed], out[speed + 1] = q[0] + yaw_rate * v, q[1] - yaw_rate * u

@@ -66,7 +66,8 @@ YAW_MOMENT, ROLL_MOMENT = 12, 13  # of tyres, suspension and hitches, N m
 CARRIED = 14  # vertical load on the front hitch, N
 HITCH_FORCE_X, HITCH_FORCE_Y = 15, 16  # on the unit at its front hitch, N
 ACCELERATION_X, ACCELERATION_Y = 17, 18  # of the CG, m/s^2
-UNIT_WORK = 19
+LEAN, UPRIGHT = 19, 20  # sine and cosine of the roll angle
+UNIT_WORK = 21
 
 # Columns of `Work.wheels`.
 LOAD, SLIP, SLIDE = 0, 1, 2  # N, lateral slip, share by which a braked wheel slides

@@ -92,26 +92,28 @@ def magic_formula_force(slip: float, load: float, scale: float, row: FloatArray)
 @compiled
 def lateral_force(
     model: int, slip: float, load: float, friction: float, stiffness: float, tyres: float, scale: float,
-    side: float, row: FloatArray,
+    side: float, magic: FloatArray, axle: int,
 ) -> float:  # fmt: skip
     """Lateral force of a wheel without longitudinal force [N].
 
-    ``side`` is 1 on the left and -1 on the right.
+    ``side`` is 1 on the left and -1 on the right; ``magic`` is `Parameters.magic`, whose row is looked up
+    where it is needed alone: a view costs as much as the rest.
     """
     if model == LINEAR:
         return stiffness * slip
     if model == MAGIC_FORMULA:
         # A tyre's asymmetry is mirrored on the other side.
-        return side * tyres * magic_formula_force(side * slip, load / tyres, scale, row)
+        return side * tyres * magic_formula_force(side * slip, load / tyres, scale, magic[axle])
     return brush_force(slip, stiffness, friction * load)
 
 
 @compiled
 def longitudinal_limit(
-    model: int, load: float, friction: float, tyres: float, scale: float, row: FloatArray
+    model: int, load: float, friction: float, tyres: float, scale: float, magic: FloatArray, axle: int
 ) -> float:
     """Largest longitudinal force of a wheel [N]."""
-    if model == MAGIC_FORMULA and row[PDX1] > 0.0:
+    if model == MAGIC_FORMULA and magic[axle, PDX1] > 0.0:
+        row = magic[axle]
         nominal = row[LFZO] * row[FNOMIN]
         change = (load / tyres - nominal) / nominal
         return float(max((row[PDX1] + row[PDX2] * change) * row[LMUX] * scale, 0.0) * load)

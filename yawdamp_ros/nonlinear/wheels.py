@@ -96,61 +96,58 @@ def standstill(speed: float) -> float:
 
 @compiled
 def contact(
-    axle: int, wheel: int, forward: float, leftward: float, cosine: float, sine: float, state: FloatArray,
-    p: Parameters, w: Work, out: FloatArray,
-) -> None:  # fmt: skip
-    """Slip of one wheel, and the rates of its two deflections.
+    vx: float, vy: float, sigma: float, held: float, deflection: float
+) -> tuple[float, float, float, float]:
+    """Slip and grip of one wheel, and the rates of its two deflections.
 
     Across, the slip s of a rolling wheel follows ``sigma s' + abs(vx) s = -vy`` (Bernard and Clover, SAE
     950311, 1995), which holds at rest; there the carcass is damped, too (Pacejka 2012, section 8.6). Along,
     the deflection of a braked wheel grows with travel up to the brake force (Dahl 1968), which holds a
     vehicle on a grade.
+
+    Parameters
+    ----------
+    vx, vy : float
+        Velocity in the wheel's frame [m/s].
+    sigma : float
+        Relaxation length [m].
+    held, deflection : float
+        Lateral slip and deflection of the carcass in the state.
     """
-    units, axles = p.units.shape[0], p.axles.shape[0]
-    slips = roll_index(units) + 3 * units
-    carcasses = slips + 2 * axles
-    vx, vy = cosine * forward + sine * leftward, cosine * leftward - sine * forward
     rest = standstill(vx)
-    sigma = p.axles[axle, RELAXATION_LENGTH]
     if sigma > 0.0:
-        held = state[slips + wheel]
         slip = held - CARCASS_DAMPING * rest * vy / sigma
-        out[slips + wheel] = -(vy + max(abs(vx), abs(vy) / LARGEST_SLIP) * held) / sigma
+        slip_rate = -(vy + max(abs(vx), abs(vy) / LARGEST_SLIP) * held) / sigma
     else:
         slip = -vy / max(abs(vx), LOWEST_ROLLING_SPEED)
-        out[slips + wheel] = 0.0
+        slip_rate = 0.0
     crawl = min(max(vx, -BRAKE_SPEED), BRAKE_SPEED)
-    deflection = state[carcasses + wheel]
-    out[carcasses + wheel] = -(crawl + abs(crawl) * deflection) / CARCASS_TRAVEL
+    deflection_rate = -(crawl + abs(crawl) * deflection) / CARCASS_TRAVEL
     grip = deflection - CARCASS_DAMPING * rest * vx / CARCASS_TRAVEL
-    wheel_work = w.wheels
-    wheel_work[wheel, SLIP] = slip
-    wheel_work[wheel, GRIP] = min(max(grip, -1.0), 1.0)
-    wheel_work[wheel, CONTACT_X], wheel_work[wheel, CONTACT_Y] = vx, vy
+    return slip, min(max(grip, -1.0), 1.0), slip_rate, deflection_rate
 
 
 @compiled
 def wheel_force(
-    axle: int, wheel: int, load: float, friction: float, drive: float, resistance: float, brake_limit: float,
-    p: Parameters, w: Work,
-) -> None:  # fmt: skip
-    """Forces of one wheel in its own frame, by its slip; friction limits their sum by an ellipse."""
-    axle_table, wheel_work = p.axles, w.wheels
-    wheel_work[wheel, LOAD] = load
-    wheel_work[wheel, SLIDE] = 0.0
-    wheel_work[wheel, LONGITUDINAL_FORCE] = wheel_work[wheel, LATERAL_FORCE] = 0.0
-    if load <= LIFTED or friction <= 0.0:
-        return
-    tyres = axle_table[axle, TYRES]
-    model = axle_table[axle, TYRE_MODEL]
-    scale = friction / p.scalars[NOMINAL_FRICTION]
-    limit = longitudinal_limit(model, load, friction, tyres, scale, p.magic[axle])
-    stiffness = load * max(axle_table[axle, STIFFNESS_RATE] - axle_table[axle, STIFFNESS_SLOPE] * load, 0.0)
-    side = 1.0 - 2.0 * (wheel % 2)
-    slip = wheel_work[wheel, SLIP]
-    lateral = lateral_force(model, slip, load, friction, stiffness, tyres, scale, side, p.magic[axle])
-    grip = wheel_work[wheel, GRIP]
-    brake = min(resistance, brake_limit * limit)
+    lateral: float, limit: float, drive: float, brake: float, grip: float, vx: float, vy: float
+) -> tuple[float, float, float]:
+    """Longitudinal and lateral force of one wheel in its own frame, and the share by which it slides.
+
+    Friction limits the sum of both forces by an ellipse.
+
+    Parameters
+    ----------
+    lateral : float
+        Force without a longitudinal one [N].
+    limit : float
+        Largest longitudinal force [N].
+    drive, brake : float
+        Demanded [N].
+    grip : float
+        Share of the brake force that acts, forward positive.
+    vx, vy : float
+        Velocity in the wheel's frame [m/s].
+    """
     longitudinal = drive + brake * grip
     used = abs(longitudinal) / limit
     if used >= 1.0:
@@ -160,31 +157,30 @@ def wheel_force(
         lateral *= math.sqrt(1.0 - used * used)
     slide = min(max((brake * abs(grip) / limit - 1.0) / LOCKING, 0.0), 1.0)
     if slide > 0.0:
-        wheel_work[wheel, SLIDE] = slide
-        vx, vy = wheel_work[wheel, CONTACT_X], wheel_work[wheel, CONTACT_Y]
         square = vx * vx + vy * vy
-        slide *= square / (square + SLIDING_SPEED * SLIDING_SPEED)
-        per_speed = slide * limit / math.sqrt(square + 1e-12)
-        longitudinal = (1.0 - slide) * longitudinal - per_speed * vx
-        lateral = (1.0 - slide) * lateral - per_speed * vy
-    wheel_work[wheel, LONGITUDINAL_FORCE] = longitudinal
-    wheel_work[wheel, LATERAL_FORCE] = lateral
+        sliding = slide * (square / (square + SLIDING_SPEED * SLIDING_SPEED))
+        per_speed = sliding * limit / math.sqrt(square + 1e-12)
+        longitudinal = (1.0 - sliding) * longitudinal - per_speed * vx
+        lateral = (1.0 - sliding) * lateral - per_speed * vy
+    return longitudinal, lateral, slide
 
 
 @compiled
 def wheel_forces(state: FloatArray, inputs: FloatArray, p: Parameters, w: Work, out: FloatArray) -> None:
     """Forces of all wheels, summed by unit in the unit's own frame; rates of their slips into ``out``."""
-    unit_table, axle_table, unit_work, wheel_work = p.units, p.axles, w.units, w.wheels
+    unit_table, axle_table, scalars, unit_work, wheel_work = p.units, p.axles, p.scalars, w.units, w.wheels
     units, axles = unit_table.shape[0], axle_table.shape[0]
     rolls = roll_index(units)
-    with_roll = p.scalars[WITH_ROLL] > 0.0
+    slips = rolls + 3 * units
+    carcasses = slips + 2 * axles
+    with_roll = scalars[WITH_ROLL] > 0.0
     driving = driving_force(state, inputs, p)
-    braking = p.scalars[TOTAL_MASS] * max(-inputs[ACCELERATION], 0.0)
+    braking = scalars[TOTAL_MASS] * max(-inputs[ACCELERATION], 0.0)
     demands = AXLE_STEERING + axles
     for unit in range(units):
         yaw_rate, roll, roll_rate = state[4 + units + unit], state[rolls + unit], state[rolls + units + unit]
         demand, moment = max(inputs[demands + unit], 0.0), inputs[demands + units + unit]
-        height = unit_table[unit, ROLL_AXIS_HEIGHT]
+        height, brake_limit = unit_table[unit, ROLL_AXIS_HEIGHT], unit_table[unit, BRAKE_LIMIT]
         force_x = force_y = yaw_moment = roll_moment = 0.0
         for axle in range(p.first_axle[unit], p.first_axle[unit + 1]):
             x, half = axle_table[axle, POSITION], axle_table[axle, HALF_TRACK]
@@ -197,9 +193,18 @@ def wheel_forces(state: FloatArray, inputs: FloatArray, p: Parameters, w: Work, 
             load = w.axle_loads[axle]
             sprung = axle_table[axle, ROLL_STIFFNESS] * roll + axle_table[axle, ROLL_DAMPING] * roll_rate
             leftward = unit_work[unit, VELOCITY_Y] + x * yaw_rate
+            tyres, model = axle_table[axle, TYRES], axle_table[axle, TYRE_MODEL]
+            rate, slope = axle_table[axle, STIFFNESS_RATE], axle_table[axle, STIFFNESS_SLOPE]
+            sigma = axle_table[axle, RELAXATION_LENGTH]
             for place in range(2):
+                wheel = 2 * axle + place
                 forward = unit_work[unit, VELOCITY_X] - (1.0 - 2.0 * place) * half * yaw_rate
-                contact(axle, 2 * axle + place, forward, leftward, cosine, sine, state, p, w, out)
+                vx, vy = cosine * forward + sine * leftward, cosine * leftward - sine * forward
+                slip, grip, out[slips + wheel], out[carcasses + wheel] = contact(
+                    vx, vy, sigma, state[slips + wheel], state[carcasses + wheel]
+                )
+                wheel_work[wheel, SLIP], wheel_work[wheel, GRIP] = slip, grip
+                wheel_work[wheel, CONTACT_X], wheel_work[wheel, CONTACT_Y] = vx, vy
             # First with the load that the springs shift, then also with that which the roll centre does: the
             # sum of both wheels' lateral forces hardly depends on it.
             shift = along = across = turning = 0.0
@@ -215,18 +220,21 @@ def wheel_forces(state: FloatArray, inputs: FloatArray, p: Parameters, w: Work, 
                     if side * moment > 0.0:
                         resistance += one_sided
                     friction = inputs[FRICTION_LEFT + place]
-                    wheel_force(
-                        axle,
-                        wheel,
-                        wheel_load,
-                        friction,
-                        drive,
-                        resistance,
-                        unit_table[unit, BRAKE_LIMIT],
-                        p,
-                        w,
-                    )
-                    ahead, left = wheel_work[wheel, LONGITUDINAL_FORCE], wheel_work[wheel, LATERAL_FORCE]
+                    ahead = left = slide = 0.0
+                    if wheel_load > LIFTED and friction > 0.0:
+                        scale = friction / scalars[NOMINAL_FRICTION]
+                        limit = longitudinal_limit(model, wheel_load, friction, tyres, scale, p.magic, axle)
+                        stiffness = wheel_load * max(rate - slope * wheel_load, 0.0)
+                        slip = wheel_work[wheel, SLIP]
+                        left = lateral_force(
+                            model, slip, wheel_load, friction, stiffness, tyres, scale, side, p.magic, axle
+                        )
+                        ahead, left, slide = wheel_force(
+                            left, limit, drive, min(resistance, brake_limit * limit), wheel_work[wheel, GRIP],
+                            wheel_work[wheel, CONTACT_X], wheel_work[wheel, CONTACT_Y],
+                        )  # fmt: skip
+                    wheel_work[wheel, LOAD], wheel_work[wheel, SLIDE] = wheel_load, slide
+                    wheel_work[wheel, LONGITUDINAL_FORCE], wheel_work[wheel, LATERAL_FORCE] = ahead, left
                     own_along = cosine * ahead - sine * left
                     along += own_along
                     across += sine * ahead + cosine * left
