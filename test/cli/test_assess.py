@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from yawdamp_ros.analysis import MEASURES
+from yawdamp_ros.analysis import MEASURES, load_scheme
 from yawdamp_ros.cli import run
 
 
@@ -90,9 +90,60 @@ def test_text_says_why_there_is_no_value(capsys: pytest.CaptureFixture[str]) -> 
     assert text.count("no value: single_vehicle at 40 m/s: unstable: there is no lane change") == 1
 
 
+def test_a_scheme_has_one_verdict_its_limits_and_the_level_that_is_reached(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert (
+        run(["assess", "--vehicle", "a_double", "--scheme", "pbs", "--level", "2", "--format", "json"]) == 1
+    )
+    found = json.loads(capsys.readouterr().out)
+    assert (found["scheme"], found["level"], found["verdict"], found["level_reached"]) == (
+        "pbs",
+        "2",
+        "fail",
+        "4",
+    )
+    assert found["deciding"] == ["high_speed_transient_offtracking"]
+    rows = {row["measure"]: row for row in found["measures"]}
+    assert list(rows) == list(load_scheme("pbs").measures)
+    assert rows["low_speed_swept_path"]["limit"] == 8.7
+    assert rows["rearward_amplification"]["limit"] == pytest.approx(
+        5.7 * rows["rear_static_rollover_threshold"]["value"]
+    )
+
+
+def test_text_of_a_scheme_fits_80_columns_and_begins_with_the_verdict(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert run(["assess", "--vehicle", "a_double", "--scheme", "rtac", "--definitions"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1] == "FAILS rtac; decided by high_speed_transient_offtracking"
+    assert "Sources of the limits" in lines
+    assert max(map(len, lines[:9])) <= 80
+
+
+def test_csv_has_a_row_for_each_measure_of_each_vehicle_in_the_units_asked_for(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    vehicles = ["--vehicle", "a_double", "--vehicle", "interlink"]
+    assert run(["assess", *vehicles, "--scheme", "rtac", "--format", "csv", "--units", "engineering"]) == 1
+    rows = [line.split(",") for line in capsys.readouterr().out.splitlines()]
+    assert [row[0] for row in rows[1:]] == ["a_double"] * 3 + ["interlink"] * 3
+    assert rows[2][rows[0].index("speed")] == "88.0"
+
+
+def test_vehicles_stand_side_by_side(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["assess", "--vehicle", "a_double", "--vehicle", "interlink", "--scheme", "rtac"]) == 1
+    text = capsys.readouterr().out
+    assert "1.018!" in text
+    assert "verdict, level reached" in text
+
+
 @pytest.mark.parametrize(
     "arguments, said",
     [
+        (["--scheme", "pbs", "--level", "5"], "level: 5: pbs: expected one of 1, 2, 3, 4"),
+        (["--scheme", "nowhere.yaml"], "nowhere.yaml: no such scheme; expected a file or one of"),
         (["--srt", "-1"], "srt: -1.0: expected a static rollover threshold in g"),
         (["--srt", "high"], "argument --srt: invalid float value"),
         (["--vehicle", "bicycle"], "bicycle: no such vehicle"),

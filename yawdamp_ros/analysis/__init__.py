@@ -14,7 +14,7 @@ if TYPE_CHECKING:
         peak_amplification,
         rearward_amplification,
     )
-    from yawdamp_ros.analysis.assessment import Finding, assess, failed
+    from yawdamp_ros.analysis.assessment import Finding, Outcome, Verdict, assess, failed, outcome
     from yawdamp_ros.analysis.boundaries import (
         Boundary,
         critical_speed,
@@ -32,12 +32,13 @@ if TYPE_CHECKING:
         steer_axle_position,
     )
     from yawdamp_ros.analysis.locus import Locus, eigenvalue_locus
-    from yawdamp_ros.analysis.measures import MEASURES, Level, Measure
+    from yawdamp_ros.analysis.measures import MEASURES, VEHICLE_MEASURES, Measure, VehicleMeasure
     from yawdamp_ros.analysis.offtracking import (
         axle_path,
         high_speed_transient_offtracking,
         steady_offtracking,
     )
+    from yawdamp_ros.analysis.schemes import Requirement, Scheme, builtin_schemes, load_scheme
     from yawdamp_ros.analysis.speed_brackets import SPEEDS
     from yawdamp_ros.analysis.steady_state import (
         SteadyTurn,
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
         steady_steering,
         steady_turn,
     )
+    from yawdamp_ros.analysis.tractrix import Turn, low_speed_turn
     from yawdamp_ros.analysis.transfer import TransferFunction, transfer_function
     from yawdamp_ros.analysis.variation import Variation, parse_variation
     from yawdamp_ros.analysis.yaw_damping import damping_of_peaks, pulse_decay, yaw_damping_coefficient
@@ -55,22 +57,29 @@ __all__ = [
     "SAE_J2179",
     "SAE_J2179_SPEED",
     "SPEEDS",
+    "VEHICLE_MEASURES",
     "AnalysisError",
     "Boundary",
     "Finding",
-    "Level",
     "Locus",
     "Measure",
     "Mode",
+    "Outcome",
     "PeakAmplification",
+    "Requirement",
+    "Scheme",
     "SingleLaneChange",
     "SteadyTurn",
     "Steering",
     "TransferFunction",
+    "Turn",
     "Variation",
+    "VehicleMeasure",
+    "Verdict",
     "amplification_at",
     "assess",
     "axle_path",
+    "builtin_schemes",
     "critical_speed",
     "damping_of_peaks",
     "eigenvalue_locus",
@@ -79,7 +88,10 @@ __all__ = [
     "growth",
     "high_speed_transient_offtracking",
     "least_damping_ratio",
+    "load_scheme",
+    "low_speed_turn",
     "modes",
+    "outcome",
     "parse_variation",
     "peak_amplification",
     "pulse_decay",
@@ -100,7 +112,7 @@ __all__ = [
 __getattr__ = load_on_use(
     __name__,
     {
-        "yawdamp_ros.analysis.assessment": ("Finding", "assess", "failed"),
+        "yawdamp_ros.analysis.assessment": ("Finding", "Outcome", "Verdict", "assess", "failed", "outcome"),
         "yawdamp_ros.analysis.boundaries": (
             "Boundary",
             "critical_speed",
@@ -117,7 +129,8 @@ __getattr__ = load_on_use(
             "steer_axle_position",
         ),
         "yawdamp_ros.analysis.locus": ("Locus", "eigenvalue_locus"),
-        "yawdamp_ros.analysis.measures": ("MEASURES", "Level", "Measure"),
+        "yawdamp_ros.analysis.tractrix": ("Turn", "low_speed_turn"),
+        "yawdamp_ros.analysis.measures": ("MEASURES", "VEHICLE_MEASURES", "Measure", "VehicleMeasure"),
         "yawdamp_ros.analysis.eigenmodes": ("Mode", "growth", "least_damping_ratio", "modes", "rightmost"),
         "yawdamp_ros.analysis.offtracking": (
             "axle_path",
@@ -130,6 +143,7 @@ __getattr__ = load_on_use(
             "peak_amplification",
             "rearward_amplification",
         ),
+        "yawdamp_ros.analysis.schemes": ("Requirement", "Scheme", "builtin_schemes", "load_scheme"),
         "yawdamp_ros.analysis.speed_brackets": ("SPEEDS",),
         "yawdamp_ros.analysis.steady_state": (
             "SteadyTurn",

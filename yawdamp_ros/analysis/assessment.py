@@ -1,16 +1,27 @@
-"""One combination against every measure."""
+"""One combination against the measures and levels of a scheme."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
 
 from yawdamp_ros.analysis.answers import stack_of
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.measures import MEASURES, NONLINEAR, NONLINEAR_MEASURES, Measure
+from yawdamp_ros.analysis.measures import (
+    MEASURES,
+    NONLINEAR,
+    NONLINEAR_MEASURES,
+    VEHICLE_MEASURES,
+    Measure,
+    VehicleMeasure,
+)
+from yawdamp_ros.analysis.schemes import DEFAULT_SCHEME, Requirement, Scheme, load_scheme
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.vehicle import Vehicle
 
 THRESHOLDS = (0.05, 1.5)
 """Static rollover thresholds that a road vehicle can have [g]; trucks have 0.25 to 0.6."""
+ROLLOVER = ("static_rollover_threshold", "rear_static_rollover_threshold")
+"""Measures that a threshold which is given stands for."""
 
 
 @dataclass(frozen=True)
@@ -19,66 +30,175 @@ class Finding:
 
     Attributes
     ----------
-    measure : Measure
+    measure : Measure or VehicleMeasure
     speed : float
         At which it was taken, in m/s.
     value : float or None
     passed : bool or None
-        Whether it meets its levels; None without a value or a level, or where a level takes a static rollover
-        threshold that is not given and no other level is failed.
+        Whether it meets its limits; None without a value or a limit, or where a limit takes a static rollover
+        threshold that is not known and no other limit is failed.
     reason : str
         Why there is no value; empty where that needs no saying.
     ambiguity : str
         Why the verdict is not sure, or why there is none; empty where it is.
+    requirements : tuple of Requirement
+        Of the scheme.
+    limits : tuple of float or None
+        Of the level in question, for each requirement; of the easiest where no level is chosen.
+    reached : int or None
+        Place of the hardest level that it meets.
     """
 
-    measure: Measure
+    measure: Measure | VehicleMeasure
     speed: float
     value: float | None
     passed: bool | None
     reason: str = ""
     ambiguity: str = ""
+    requirements: tuple[Requirement, ...] = ()
+    limits: tuple[float | None, ...] = ()
+    reached: int | None = None
 
     @property
     def level(self) -> str | None:
-        """Levels of the measure as text."""
-        return "; ".join(level.text for level in self.measure.levels) or None
+        """Limits of the scheme as text."""
+        return "; ".join(each.text for each in self.requirements) or None
 
 
-def assess(
-    vehicle: Vehicle, model: str = "consistent", speed: float | None = None, srt: float | None = None
+class Verdict(Enum):
+    """Of a whole combination."""
+
+    PASS = "pass"  # noqa: S105 - no password
+    FAIL = "fail"
+    OPEN = "open"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What an assessment comes to.
+
+    Attributes
+    ----------
+    verdict : Verdict
+        Open where nothing is failed and something is not known.
+    reached : str or None
+        Hardest level that every measure with a value meets; None where there is none.
+    deciding : tuple of str
+        Measures that are failed or, where all pass, those that keep it from a harder level.
+    unknown : tuple of str
+        Measures with a limit that could not be judged.
+    """
+
+    verdict: Verdict
+    reached: str | None
+    deciding: tuple[str, ...]
+    unknown: tuple[str, ...]
+
+
+def assess(  # noqa: PLR0913, PLR0917 - each chooses one thing
+    vehicle: Vehicle,
+    model: str = "consistent",
+    speed: float | None = None,
+    srt: float | None = None,
+    scheme: Scheme | None = None,
+    level: str | None = None,
 ) -> tuple[Finding, ...]:
-    """Take every measure of a vehicle.
+    """Take the measures of a scheme.
 
     Parameters
     ----------
     vehicle : Vehicle
     model : str
-        One of `yawdamp_ros.dynamics.MODELS`, or ``nonlinear``.
+        One of `yawdamp_ros.dynamics.MODELS`, or ``nonlinear``; for the measures that several models have.
     speed : float, optional
-        For every measure, in m/s; unless given each is taken at its standard's speed or, where that names
-        none, at the vehicle's own.
+        For every measure but those of a manoeuvre with its own, in m/s; unless given each is taken at its
+        standard's speed or, where that names none, at the vehicle's own.
     srt : float, optional
-        Static rollover threshold of the rear roll-coupled unit in g, which this planar model cannot tell.
+        Static rollover threshold in g, in place of the computed one.
+    scheme : Scheme, optional
+        The linear lateral measures with the limits of PBS and RTAC unless given.
+    level : str, optional
+        Of the scheme; the easiest unless given.
 
     Returns
     -------
     tuple of Finding
-        In the order of `MEASURES`.
+        In the order of the scheme.
 
     Raises
     ------
     AnalysisError
-        If the threshold is none that a road vehicle can have.
+        If the threshold is none that a road vehicle can have, or there is no such level.
     DynamicsError
         If there is no such model of this vehicle at that speed.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> from yawdamp_ros.analysis import load_scheme
+    >>> found = assess(load_vehicle("interlink"), scheme=load_scheme("rtac"))
+    >>> [finding.measure.name for finding in found if finding.passed][-1]
+    'high_speed_transient_offtracking'
     """
     if srt is not None and not THRESHOLDS[0] <= srt <= THRESHOLDS[1]:
         low, high = THRESHOLDS
         message = f"srt: {srt}: expected a static rollover threshold in g, {low:g} to {high:g} (35 % is 0.35)"
         raise AnalysisError(message)
-    find = _find_nonlinear if model == NONLINEAR else _find
-    return tuple(find(measure, vehicle, model, speed, srt) for measure in MEASURES.values())
+    chosen = load_scheme(DEFAULT_SCHEME) if scheme is None else scheme
+    place = None if level is None else chosen.level(level)
+    findings, spans = [], {}
+    for name in chosen.measures:
+        finding, span = _find(name, vehicle, model, speed, srt)
+        findings.append(finding)
+        if span is not None:
+            spans[name] = span
+    values = {finding.measure.name: finding.value for finding in findings}
+    if srt is not None:
+        values.update(dict.fromkeys(ROLLOVER, srt))
+    return tuple(
+        _judged(replace(finding, requirements=chosen.of(finding.measure.name)), chosen, place, values, spans)
+        for finding in findings
+    )
+
+
+def outcome(findings: Iterable[Finding], scheme: Scheme) -> Outcome:
+    """Sum up an assessment.
+
+    Parameters
+    ----------
+    findings : iterable of Finding
+        As `assess` gives them for the scheme.
+    scheme : Scheme
+
+    Returns
+    -------
+    Outcome
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> from yawdamp_ros.analysis import load_scheme
+    >>> rtac = load_scheme("rtac")
+    >>> outcome(assess(load_vehicle("a_double"), scheme=rtac), rtac).verdict
+    <Verdict.FAIL: 'fail'>
+    """
+    judged = [finding for finding in findings if finding.requirements]
+    failing = tuple(finding.measure.name for finding in judged if finding.passed is False)
+    unknown = tuple(
+        finding.measure.name
+        for finding in judged
+        if finding.passed is None and (finding.value is not None or finding.reason)
+    )
+    verdict = Verdict.FAIL if failing else Verdict.OPEN if unknown else Verdict.PASS
+    known = [
+        finding for finding in judged if finding.value is not None and finding.measure.name not in unknown
+    ]
+    places = {finding.measure.name: finding.reached for finding in known}
+    worst = (
+        None if None in places.values() else max((p for p in places.values() if p is not None), default=None)
+    )
+    held = tuple(name for name, place in places.items() if place == worst and worst)
+    return Outcome(verdict, None if worst is None else scheme.levels[worst] or None, failing or held, unknown)
 
 
 def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Finding, Finding], ...]:
@@ -100,46 +220,71 @@ def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Fin
 
 
 def failed(findings: Iterable[Finding]) -> bool:
-    """Whether any level is failed, or met in one reading of an ambiguous measure only."""
+    """Whether any limit is failed, or met in one reading of an ambiguous measure only."""
     return any(finding.passed is False or bool(finding.ambiguity) for finding in findings)
 
 
-def _find(measure: Measure, vehicle: Vehicle, model: str, speed: float | None, srt: float | None) -> Finding:
-    at = linear_model(vehicle, measure.speed_for(vehicle, speed), model)
-    answers = measure.answers(stack_of(at))
+def _find(
+    name: str, vehicle: Vehicle, model: str, speed: float | None, srt: float | None
+) -> tuple[Finding, tuple[float, float] | None]:
+    """Value of a measure, and the lowest and the highest that it could be read as where it is ambiguous."""
+    measure = MEASURES[name] if name in MEASURES else VEHICLE_MEASURES[name]
+    at = measure.speed_for(vehicle, speed)
+    span = None
     try:
-        value = answers.only()
+        if isinstance(measure, VehicleMeasure):
+            value = srt if srt is not None and name in ROLLOVER else measure.value_of(vehicle, at)
+        elif model == NONLINEAR:
+            value = _nonlinear(name, vehicle, speed)
+        else:
+            answers = measure.answers(stack_of(linear_model(vehicle, at, model)))
+            value = answers.only()
+            if value is not None and answers.spans is not None:
+                low, high = answers.spans[0].tolist()
+                span = low, high
     except AnalysisError as error:
-        return Finding(measure, at.speed, None, None, str(error))
-    passed = _judge(measure, value, srt)
-    if value is None or answers.spans is None:
-        return Finding(measure, at.speed, value, passed)
-    low, high = answers.spans[0].tolist()
-    if {_judge(measure, low, srt), _judge(measure, high, srt)} == {passed}:
-        return Finding(measure, at.speed, value, passed)
-    ambiguity = f"{measure.name} could be read as {low:.4g} to {high:.4g}, on either side of its level"
-    # A pass has to hold however the measure is read.
-    return Finding(measure, at.speed, value, False if passed is False else None, "", ambiguity)
+        return Finding(measure, at, None, None, str(error)), None
+    return Finding(measure, at, value, None), span
 
 
-def _find_nonlinear(
-    measure: Measure, vehicle: Vehicle, _model: str, speed: float | None, srt: float | None
-) -> Finding:
+def _nonlinear(name: str, vehicle: Vehicle, speed: float | None) -> float:
     # Numba takes long to import, which no linear assessment waits for.
     from yawdamp_ros.analysis.nonlinear_measures import nonlinear_measure  # noqa: PLC0415
 
-    at = measure.speed_for(vehicle, speed)
-    if measure.name not in NONLINEAR_MEASURES:
-        return Finding(measure, at, None, None, f"{measure.name} is defined for a linear model")
-    try:
-        value = nonlinear_measure(measure.name, vehicle, speed)
-    except AnalysisError as error:
-        return Finding(measure, at, None, None, str(error))
-    return Finding(measure, at, value, _judge(measure, value, srt))
+    if name not in NONLINEAR_MEASURES:
+        message = f"{name} is defined for a linear model"
+        raise AnalysisError(message)
+    return nonlinear_measure(name, vehicle, speed)
 
 
-def _judge(measure: Measure, value: float | None, srt: float | None) -> bool | None:
-    if value is None or not measure.levels:
-        return None
-    met = [level.met(value, srt) for level in measure.levels]
-    return False if False in met else None if None in met else True
+def _judged(
+    finding: Finding,
+    scheme: Scheme,
+    level: int | None,
+    values: Mapping[str, float | None],
+    spans: Mapping[str, tuple[float, float]],
+) -> Finding:
+    """Hold a value to its limits."""
+    easiest = len(scheme.levels) - 1
+    chosen = easiest if level is None else level
+    limits = tuple(each.limit(chosen, values) for each in finding.requirements)
+    value = finding.value
+    if value is None or not finding.requirements:
+        return replace(finding, limits=limits)
+
+    def met(reading: float, place: int) -> bool | None:
+        found = [each.met(reading, place, values) for each in finding.requirements]
+        return False if False in found else None if None in found else True
+
+    reached = next((place for place in range(easiest + 1) if met(value, place)), None)
+    passed = met(value, chosen)
+    judged = replace(finding, limits=limits, reached=reached, passed=passed)
+    span = spans.get(finding.measure.name)
+    if span is None or {met(reading, chosen) for reading in span} == {passed}:
+        return judged
+    low, high = span
+    ambiguity = (
+        f"{finding.measure.name} could be read as {low:.4g} to {high:.4g}, on either side of its level"
+    )
+    # A pass has to hold however the measure is read.
+    return replace(judged, passed=False if passed is False else None, ambiguity=ambiguity)

@@ -1,11 +1,12 @@
-"""The measures that a combination is judged by: what each is, at which speed, against which level.
+"""The measures that a combination is judged by: what each is, and at which speed.
 
-The levels are those of the Australian Performance-Based Standards scheme (PBS; the South African pilot has
-the same) and of the Canadian RTAC study. All were read in secondary sources, none in the standard itself.
+`MEASURES` are those of a linear model, whole stacks of vehicles at once; `VEHICLE_MEASURES` take one vehicle
+at a time, by its geometry, its powertrain or the nonlinear model. Limits are data: see `schemes`.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from types import MappingProxyType
 
 import numpy as np
@@ -30,35 +31,6 @@ PBS_DAMPING_SPEED = 80.0 / 3.6
 
 
 @dataclass(frozen=True)
-class Level:
-    """What a standard asks of a measure.
-
-    Attributes
-    ----------
-    text : str
-        As tables show it.
-    limit : float
-        In the measure's unit, or per g of static rollover threshold.
-    kind : str
-        ``least`` and ``above`` bound the value from below, ``most`` from above.
-    per_srt : bool
-        Whether the limit is times the static rollover threshold of the rear roll-coupled unit.
-    """
-
-    text: str
-    limit: float
-    kind: str = "most"
-    per_srt: bool = False
-
-    def met(self, value: float, srt: float | None) -> bool | None:
-        """Whether a value meets the level; None where that takes a threshold in g that is not given."""
-        if self.per_srt and srt is None:
-            return None
-        limit = self.limit * (srt or 1.0) if self.per_srt else self.limit
-        return {"least": value >= limit, "above": value > limit, "most": value <= limit}[self.kind]
-
-
-@dataclass(frozen=True)
 class Measure:
     """One measure of lateral performance.
 
@@ -74,7 +46,6 @@ class Measure:
         Its values for the model of a stack of vehicles.
     speed : float or None
         That its standard asks for, in m/s; None: the vehicle's own.
-    levels : tuple of Level
     """
 
     name: str
@@ -82,7 +53,6 @@ class Measure:
     definition: str
     answers: Callable[[LinearModel], Answers]
     speed: float | None = None
-    levels: tuple[Level, ...] = ()
 
     def value(self, model: LinearModel) -> float | None:
         """Value for one vehicle, None where there is none.
@@ -99,6 +69,48 @@ class Measure:
         if asked is not None:
             return asked
         return vehicle.speed if self.speed is None else self.speed
+
+
+@dataclass(frozen=True)
+class VehicleMeasure:
+    """A measure that is taken of one vehicle at a time.
+
+    Attributes
+    ----------
+    name, unit, definition : str
+        As of `Measure`.
+    value_of : callable
+        Value of a vehicle at a speed in m/s; None where it does not apply, as
+        the swing of trailers to a truck.
+    speed : float or None
+        That its standard asks for, in m/s; None: the vehicle's own.
+    fixed : bool
+        Whether the manoeuvre has its own speed, whatever is asked for.
+    """
+
+    name: str
+    unit: str
+    definition: str
+    value_of: Callable[[Vehicle, float], float | None]
+    speed: float | None = None
+    fixed: bool = False
+
+    def speed_for(self, vehicle: Vehicle, asked: float | None = None) -> float:
+        """Speed at which a vehicle is judged [m/s]: asked for, standard, or own."""
+        if asked is not None and not self.fixed:
+            return asked
+        return vehicle.speed if self.speed is None else self.speed
+
+
+def _later(module: str, function: str, *, at_speed: bool = False) -> Callable[[Vehicle, float], float | None]:
+    """Value by a function of this room, which loads on first use: some need the compiled model."""
+
+    def value(vehicle: Vehicle, speed: float) -> float | None:
+        of_vehicle = getattr(import_module(f"yawdamp_ros.analysis.{module}"), function)
+        found: float | None = of_vehicle(vehicle, speed) if at_speed else of_vehicle(vehicle)
+        return found
+
+    return value
 
 
 def _in_lane_change(quantity: int) -> Callable[[LinearModel], Answers]:
@@ -126,7 +138,6 @@ _ALL = (
         "",
         "smallest -Re/abs of the eigenvalues of the state matrix",
         least_damping_ratios,
-        levels=(Level("> 0 (stable)", 0.0, "above"),),
     ),
     Measure(
         "yaw_damping_coefficient",
@@ -136,7 +147,6 @@ _ALL = (
         f"swings alone; modes from {100.0 * EXCITED:g} % of the largest swing on count",
         yaw_dampings,
         PBS_DAMPING_SPEED,
-        (Level("PBS: >= 0.15", 0.15, "least"),),
     ),
     Measure(
         "understeer_gradient",
@@ -157,7 +167,6 @@ _ALL = (
         f"largest lateral acceleration of the last unit over that of the first, {_J2179}",
         _in_lane_change(2),
         SAE_J2179_SPEED,
-        (Level("PBS: <= 5.7 SRT/g", 5.7, per_srt=True), Level("RTAC: <= 2.2", 2.2)),
     ),
     Measure(
         "rearward_amplification_yaw_rate",
@@ -185,10 +194,6 @@ _ALL = (
         f"largest lateral distance between the paths of the last axle and of the steer axle {_J2179}",
         offtracking.lane_change_offtrackings,
         SAE_J2179_SPEED,
-        (
-            Level("PBS: <= 0.6, 0.8, 1.0, 1.2 for levels 1 to 4", 1.2),
-            Level("RTAC: <= 0.8", 0.8),
-        ),
     ),
     Measure(
         "steady_offtracking",
@@ -199,8 +204,119 @@ _ALL = (
     ),
 )
 
+_TURN = (
+    "in a turn of 90 degrees at walking speed, the outer wall of the outer front tyre on a radius of 12.5 m "
+    "(PBS); units on their tractrices"
+)
+_LOW_SPEED = 5.0 / 3.6
+_STEADY_ROLL = (
+    "highest lateral acceleration of a steady turn in which the static roll of the nonlinear model finds an "
+    "equilibrium: springs, lifting wheels, hitches that couple roll (PBS)"
+)
+
+_AT_REST = "its forces at the driven wheels, limited by friction under the driven axles at rest (PBS)"
+
+_OF_VEHICLES = (
+    VehicleMeasure(
+        "startability",
+        "%",
+        f"steepest grade on which the vehicle starts, by start_force: {_AT_REST}",
+        _later("traction", "startability"),
+        0.0,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "gradeability",
+        "%",
+        f"steepest grade on which the vehicle keeps moving, by drive_force: {_AT_REST}",
+        _later("traction", "gradeability"),
+        0.0,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "gradeability_speed",
+        "km/h",
+        f"highest speed on a grade of 1 %, by drive_power and drive_force: {_AT_REST}",
+        _later("traction", "gradeability_speed"),
+        0.0,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "acceleration_capability",
+        "s",
+        "time for the first 100 m from rest, gears changed in no time, by drive_power and drive_force: "
+        f"{_AT_REST}",
+        _later("traction", "acceleration_capability"),
+        0.0,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "low_speed_swept_path",
+        "m",
+        f"largest width swept across the path of the guided tyre {_TURN}",
+        _later("swept_path", "low_speed_swept_path"),
+        _LOW_SPEED,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "frontal_swing",
+        "m",
+        f"how far the lead unit's front corner swings out of the path of the guided tyre {_TURN}",
+        _later("swept_path", "frontal_swing"),
+        _LOW_SPEED,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "frontal_swing_maximum_of_differences",
+        "m",
+        "by how much a trailer's front corner swings out further than that of the unit ahead at one place "
+        f"{_TURN}",
+        _later("swept_path", "frontal_swing_maximum_of_differences"),
+        _LOW_SPEED,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "frontal_swing_difference_of_maxima",
+        "m",
+        "by how much a trailer's front corner swings out further than that of the unit ahead, at most "
+        f"{_TURN}",
+        _later("swept_path", "frontal_swing_difference_of_maxima"),
+        _LOW_SPEED,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "tail_swing",
+        "m",
+        f"how far a rear corner swings out of the straight way that it came {_TURN}",
+        _later("swept_path", "tail_swing"),
+        _LOW_SPEED,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "static_rollover_threshold",
+        "g",
+        f"{_STEADY_ROLL}; of the units that roll over first",
+        _later("rollover", "static_rollover_threshold"),
+        0.0,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "rear_static_rollover_threshold",
+        "g",
+        f"{_STEADY_ROLL}; of the last units that roll together",
+        _later("rollover", "rear_static_rollover_threshold"),
+        0.0,
+        fixed=True,
+    ),
+)
+
 MEASURES: Mapping[str, Measure] = MappingProxyType({measure.name: measure for measure in _ALL})
-"""Every measure by its name."""
+"""Every measure of a linear model by its name."""
+VEHICLE_MEASURES: Mapping[str, VehicleMeasure] = MappingProxyType(
+    {measure.name: measure for measure in _OF_VEHICLES}
+)
+"""Every measure of a single vehicle by its name."""
+ALL_MEASURES: Mapping[str, Measure | VehicleMeasure] = MappingProxyType({**MEASURES, **VEHICLE_MEASURES})
 
 NONLINEAR = "nonlinear"
 """Name of the model that measures can be taken by besides the linear ones."""

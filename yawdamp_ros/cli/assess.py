@@ -2,66 +2,80 @@
 
 import argparse
 import json
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from yawdamp_ros.analysis import Finding, assess, failed
+from yawdamp_ros.analysis import Finding, assess, builtin_schemes, failed, load_scheme, outcome
 from yawdamp_ros.analysis.assessment import differences
 from yawdamp_ros.analysis.measures import NONLINEAR
+from yawdamp_ros.analysis.schemes import DEFAULT_SCHEME
+from yawdamp_ros.cli import assess_report
+from yawdamp_ros.cli.engineering import SI, SYSTEMS
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.number import ROUNDING_NOISE, number
-from yawdamp_ros.cli.options import (
-    DEFAULT_MODEL,
-    Parser,
-    add_format_option,
-    add_vehicle_options,
-    chosen_vehicle,
-)
+from yawdamp_ros.cli.options import DEFAULT_MODEL, Parser, add_vehicle_options, chosen_vehicle
 from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.simulation import MODELS
-from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
 PAGES = (".html", ".htm")
-VERDICTS = {True: "pass", False: "FAIL", None: "n/a"}
 
 
 def main(argv: Sequence[str]) -> int:
-    """Run the command; 1 if a level is failed."""
+    """Run the command; 1 if a limit is failed."""
     options = _parser().parse_args(argv)
-    if options.html is not None and Path(options.html).suffix.lower() not in PAGES:
-        message = f"--html: {options.html}: expected a name ending in {' or '.join(PAGES)}"
-        raise UsageError(message)
+    _check(options)
     if options.differences:
         return _differences(options)
-    if options.html and options.model == NONLINEAR:
-        message = "--html: its pictures are of a linear model; not with --model nonlinear"
-        raise UsageError(message)
-    vehicle = chosen_vehicle(options)
-    model = options.model or DEFAULT_MODEL
-    findings = assess(vehicle, model, options.speed, options.srt)
+    assessments = [_assessed(options, name) for name in options.vehicle or [None]]
     if options.html:
         # Here and not above: what the page needs takes longer to load than most assessments to run.
         from yawdamp_ros.pictures.assessment_page import assessment_page  # noqa: PLC0415
         from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
 
-        save_page(assessment_page(vehicle, model, findings), options.html)
+        first = assessments[0]
+        save_page(assessment_page(first.vehicle, first.model, first.findings), options.html)
     if options.format == "json":
-        print(json.dumps([_record(finding) for finding in findings], indent=2))
+        assess_report.print_json(assessments)
+    elif options.format == "csv":
+        assess_report.print_csv(assessments, options.units)
     else:
-        _print_text(f"{vehicle.name}, {model} model", findings)
+        if len(assessments) > 1:
+            assess_report.print_side_by_side(assessments, options.units)
+        else:
+            assess_report.print_text(assessments[0], options.units)
         if options.definitions:
-            _print_definitions(findings)
-    return 1 if failed(findings) else 0
+            assess_report.print_definitions(assessments[0])
+    return 1 if any(failed(one.findings) for one in assessments) else 0
+
+
+def _assessed(options: argparse.Namespace, name: str | None) -> assess_report.Assessed:
+    vehicle = chosen_vehicle(argparse.Namespace(**{**vars(options), "vehicle": name}))
+    model = options.model or DEFAULT_MODEL
+    scheme = load_scheme(options.scheme)
+    findings = assess(vehicle, model, options.speed, options.srt, scheme, options.level)
+    return assess_report.Assessed(vehicle, model, scheme, options.level, findings, outcome(findings, scheme))
+
+
+def _check(options: argparse.Namespace) -> None:
+    if options.html is not None and Path(options.html).suffix.lower() not in PAGES:
+        message = f"--html: {options.html}: expected a name ending in {' or '.join(PAGES)}"
+        raise UsageError(message)
+    if options.html and options.model == NONLINEAR and not options.differences:
+        message = "--html: its pictures are of a linear model; not with --model nonlinear"
+        raise UsageError(message)
 
 
 def _differences(options: argparse.Namespace) -> int:
     """Say by how much each measure differs between the models, at its own manoeuvre."""
-    for name in ("html", "srt", "model"):
+    for name in ("html", "srt", "model", "level"):
         if getattr(options, name) is not None:
             message = f"--{name}: not with --differences, which compares the models"
             raise UsageError(message)
-    vehicle = chosen_vehicle(options)
+    vehicles = options.vehicle or [None]
+    if len(vehicles) > 1:
+        message = "--vehicle: expected one with --differences, which compares the models"
+        raise UsageError(message)
+    vehicle = chosen_vehicle(argparse.Namespace(**{**vars(options), "vehicle": vehicles[0]}))
     pairs = differences(vehicle, options.speed)
     if options.format == "json":
         records = [
@@ -111,94 +125,44 @@ def _parser() -> argparse.ArgumentParser:
     parser = Parser(
         "assess",
         "Rearward amplification, yaw damping, offtracking, understeer and critical speed of a combination,\n"
-        "with the levels of the Australian PBS scheme and of RTAC. Each measure is taken at the speed that\n"
-        "its standard names, else at the vehicle's own; --speed is for all.\n"
+        "with the levels of the Australian PBS scheme and of RTAC; by --scheme all measures of one scheme,\n"
+        "turns at low speed, rollover and powertrain among them, with one verdict. Each measure is taken at\n"
+        "the speed that its standard names, else at the vehicle's own; --speed is for all.\n"
         "Exit status: 0 if no level is failed, 1 if one is or may be, 2 for wrong use.",
-        "yawdamp assess --vehicle a_double --srt 0.4",
+        "yawdamp assess --vehicle a_double --scheme pbs --level 2",
     )
-    add_vehicle_options(parser, MODELS)
-    add_format_option(parser)
-    parser.add_argument(
+    add_vehicle_options(parser, MODELS, several=True)
+    group = parser.add_argument_group("scheme")
+    group.add_argument(
+        "--scheme",
+        default=DEFAULT_SCHEME,
+        metavar="NAME|FILE",
+        help=f"{', '.join(builtin_schemes())}, or a file of your own (default: {DEFAULT_SCHEME})",
+    )
+    group.add_argument("--level", metavar="L", help="of the scheme; unless given its easiest one decides")
+    group.add_argument(
+        "--srt",
+        type=float,
+        metavar="G",
+        help="static rollover threshold of the rear roll-coupled unit in g, as measured, in place of the "
+        f"computed one; {DEFAULT_SCHEME} computes none, so that without it the level that takes it is open",
+    )
+    group = parser.add_argument_group("answer")
+    group.add_argument("--format", choices=("text", "json", "csv"), default="text", help="default: text")
+    group.add_argument(
+        "--units", choices=SYSTEMS, default=SI, help="of text and CSV: km/h, t, kN, deg (default: si)"
+    )
+    group.add_argument(
         "--differences",
         action="store_true",
         help="by how much each measure differs by the nonlinear model, at its own manoeuvre",
     )
-    parser.add_argument(
+    group.add_argument(
         "--html",
         metavar="FILE",
         help="also write one page for a browser: table, curves, animated plan view, mode shapes, definitions",
     )
-    parser.add_argument(
+    group.add_argument(
         "--definitions", action="store_true", help="also say what each measure is, and its levels in full"
     )
-    parser.add_argument(
-        "--srt",
-        type=float,
-        metavar="G",
-        help="static rollover threshold of the rear roll-coupled unit in g, which a planar model cannot "
-        "tell; without it the level that takes it is open",
-    )
     return parser
-
-
-def _record(finding: Finding) -> dict[str, object]:
-    return {
-        "measure": finding.measure.name,
-        "value": finding.value,
-        "unit": finding.measure.unit,
-        "level": finding.level,
-        "pass": finding.passed,
-        "definition": _definition(finding),
-    }
-
-
-def _definition(finding: Finding) -> str:
-    reason = f"; no value: {finding.reason}" if finding.reason else ""
-    ambiguity = f"; ambiguous: {finding.ambiguity}" if finding.ambiguity else ""
-    return f"{finding.measure.definition}; at {finding.speed:.6g} m/s{reason}{ambiguity}"
-
-
-def _verdict(finding: Finding) -> str:
-    return "ambiguous" if finding.ambiguity and finding.passed is None else VERDICTS[finding.passed]
-
-
-def _print_text(title: str, findings: Sequence[Finding]) -> None:
-    print_table(
-        title,
-        ("measure", "value", "unit", "at m/s", "verdict", "level"),
-        [
-            (
-                finding.measure.name,
-                "none" if finding.value is None else number(finding.value),
-                finding.measure.unit,
-                f"{finding.speed:.2f}",
-                _verdict(finding),
-                finding.level or "",
-            )
-            for finding in findings
-        ],
-        prose=(5, 0),
-    )
-    values = {finding.measure.name: finding.value for finding in findings}
-    gradient = values["understeer_gradient"]
-    if gradient is not None:
-        shown = math.degrees(gradient) * STANDARD_GRAVITY if number(gradient) != "0" else 0.0
-        print(f"understeer gradient: {number(shown)} deg/g")
-    for reason in dict.fromkeys(finding.reason for finding in findings if finding.reason):
-        print(f"no value: {reason}")
-    for finding in findings:
-        if finding.ambiguity:
-            print(f"ambiguous: {finding.ambiguity}")
-    if any(
-        level.per_srt for finding in findings for level in finding.measure.levels if finding.passed is None
-    ):
-        print(
-            "--srt G, the static rollover threshold, decides on the level of PBS for rearward amplification"
-        )
-
-
-def _print_definitions(findings: Sequence[Finding]) -> None:
-    print("\nDefinitions; levels are from secondary sources")
-    for finding in findings:
-        level = f" ({finding.level})" if finding.level else ""
-        print(f"  {finding.measure.name}: {finding.measure.definition}{level}")

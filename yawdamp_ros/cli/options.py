@@ -77,10 +77,16 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(message)
 
 
-def add_vehicle_options(parser: argparse.ArgumentParser, models: Iterable[str] = LINEAR_MODELS) -> None:
-    """Add --vehicle, --speed, --model and --set; None is what was not given."""
+def add_vehicle_options(
+    parser: argparse.ArgumentParser, models: Iterable[str] = LINEAR_MODELS, *, several: bool = False
+) -> None:
+    """Add --vehicle, once or several times, --speed, --model and --set; None is what was not given."""
     group = parser.add_argument_group("vehicle")
-    group.add_argument("--vehicle", help=f"builtin name or file (default: {DEFAULT_VEHICLE})")
+    explanation = f"builtin name or file (default: {DEFAULT_VEHICLE})"
+    if several:
+        group.add_argument("--vehicle", action="append", help=f"{explanation}; may be repeated, to compare")
+    else:
+        group.add_argument("--vehicle", help=explanation)
     group.add_argument("--speed", type=float, metavar="M/S", help="default: the vehicle's own")
     if models:
         group.add_argument("--model", choices=tuple(models), help=f"default: {DEFAULT_MODEL}")

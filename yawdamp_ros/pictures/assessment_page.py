@@ -91,7 +91,7 @@ def _row(finding: Finding) -> dict[str, object]:
 def _notes(findings: Sequence[Finding]) -> str:
     notes = list(dict.fromkeys(f"No value: {finding.reason}." for finding in findings if finding.reason))
     notes += [f"Ambiguous: {finding.ambiguity}." for finding in findings if finding.ambiguity]
-    if any(level.per_srt for f in findings for level in f.measure.levels if f.passed is None):
+    if any(limit is None for f in findings if f.value is not None for limit in f.limits):
         notes.append("The PBS level of rearward amplification takes the static rollover threshold (--srt).")
     return " ".join(notes)
 

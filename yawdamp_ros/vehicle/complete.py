@@ -22,6 +22,7 @@ SOURCES: Mapping[str, str] = MappingProxyType(
         "Pacejka": "Tire and vehicle dynamics, 3rd edition, 2012",
         "ISO 1726": "the standard on fifth-wheel heights",
         "ISO 28580": "the standard on rolling resistance",
+        "ETRTO": "the European tyre standard's sizes; duals stand 0.3 m apart",
         "96/53/EC": "the directive on weights and dimensions",
         "UN R13": "the regulation on brakes",
         "statics": "from masses and positions",
@@ -62,7 +63,8 @@ class Default(NamedTuple):
     rule: Callable[..., Any]
 
 
-def _is_dolly(unit: Unit) -> bool:
+def is_dolly(unit: Unit) -> bool:
+    """Whether a towed unit counts as a dolly, which carries no body."""
     return unit.front_hitch is not None and unit.mass <= LIGHT_UNIT
 
 
@@ -83,7 +85,7 @@ UNIT_DEFAULTS: Mapping[str, Default] = MappingProxyType(
         "cg_height": Default(
             "m",
             "Factbook: tractor 1.1, laden 2.0, dolly 0.9",
-            lambda unit: 1.1 if unit.front_hitch is None else 0.9 if _is_dolly(unit) else 2.0,
+            lambda unit: 1.1 if unit.front_hitch is None else 0.9 if is_dolly(unit) else 2.0,
         ),
         "roll_inertia": Default("kg m^2", "Sampson: radius of gyration 0.8 m", lambda unit: 0.64 * unit.mass),
         "roll_axis_height": Default("m", "Factbook: 0.6, less what tyres roll below it", lambda _: 0.5),
@@ -107,14 +109,14 @@ UNIT_DEFAULTS: Mapping[str, Default] = MappingProxyType(
         "front_overhang": Default(
             "m",
             "96/53/EC: cab 1.4, trailer 1.2; a dolly's eye is its foremost point",
-            lambda unit: 1.4 if unit.front_hitch is None else 0.0 if _is_dolly(unit) else 1.2,
+            lambda unit: 1.4 if unit.front_hitch is None else 0.0 if is_dolly(unit) else 1.2,
         ),
         "rear_overhang": Default("m", "half a metre behind the last wheel", lambda _: 1.0),
         "width": Default("m", "96/53/EC: 2.55", lambda _: 2.55),
         "height": Default(
             "m",
             "96/53/EC: 4.0; a dolly ends at its fifth wheel",
-            lambda unit: 1.25 if _is_dolly(unit) else 4.0,
+            lambda unit: 1.25 if is_dolly(unit) else 4.0,
         ),
     }
 )
@@ -123,6 +125,11 @@ AXLE_DEFAULTS: Mapping[str, Default] = MappingProxyType(
         "static_load": Default("N", "statics", lambda axle: axle.static_load),
         "track_width": Default(
             "m", "Factbook: steered 2.05, others 1.85", lambda axle: 2.05 if axle.steered else 1.85
+        ),
+        "tyre_width": Default(
+            "m",
+            "ETRTO 295/80 R 22.5: single 0.3, duals 0.6",
+            lambda axle: 0.3 if axle.steered else 0.6,
         ),
         "tyre": Default("", "Pacejka, chapter 3", lambda _: "brush"),
         "relaxation_length": Default(
@@ -154,7 +161,7 @@ def complete(vehicle: Vehicle) -> Vehicle:
     Returns
     -------
     Vehicle
-        No field of which is None, but for hitches that are not there and `Axle.tyres`.
+        No field of which is None, but for hitches that are not there, `Axle.tyres` and the powertrain.
 
     Examples
     --------

@@ -30,10 +30,10 @@ LARGEST_FILE = 1 << 18
 MOST_VALUES = 10_000
 """Keys and values of a vehicle file."""
 
-VEHICLE_KEYS = ("friction", "drag_area", "drag_height")
+VEHICLE_KEYS = ("friction", "drag_area", "drag_height", "start_force", "drive_force", "drive_power")
 AXLE_KEYS = (
-    "track_width", "relaxation_length", "roll_stiffness", "roll_damping", "rolling_resistance", "driven",
-    "brake_share",
+    "track_width", "tyre_width", "relaxation_length", "roll_stiffness", "roll_damping", "rolling_resistance",
+    "driven", "brake_share",
 )  # fmt: skip
 UNIT_KEYS = (
     "cg_height", "roll_inertia", "roll_axis_height", "abs", "hitch_height", "hitch_roll_stiffness",

@@ -42,6 +42,8 @@ class Axle:
         Between the middles of the left and the right tyres [m].
     tyre : str, MagicFormula or None
         ``brush``, ``linear`` or the coefficients of a .tir file.
+    tyre_width : float or None
+        Over the tyres of one side, both of duals [m].
     relaxation_length : float or None
         In m.
     roll_stiffness, roll_damping : float or None
@@ -59,6 +61,7 @@ class Axle:
     tyres: int | None = None
     static_load: float | None = None
     track_width: float | None = None
+    tyre_width: float | None = None
     tyre: "str | MagicFormula | None" = None
     relaxation_length: float | None = None
     roll_stiffness: float | None = None
@@ -142,8 +145,13 @@ class Vehicle:
         Drag coefficient times frontal area [m^2].
     drag_height : float or None
         Of the air drag above the road [m].
+    start_force, drive_force : float or None
+        Largest force at the driven wheels when starting and when moving slowly [N].
+    drive_power : float or None
+        Largest power at the driven wheels [W].
 
-    Fields that are None are not given in the vehicle's file; `complete` fills them with documented defaults.
+    Fields that are None are not given in the vehicle's file; `complete` fills them with documented defaults,
+    but for those of the powertrain, which have none.
     """
 
     name: str
@@ -152,6 +160,9 @@ class Vehicle:
     friction: float | None = None
     drag_area: float | None = None
     drag_height: float | None = None
+    start_force: float | None = None
+    drive_force: float | None = None
+    drive_power: float | None = None
 
     @property
     def unit_names(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The schema of vehicle files, and what is said of a file that does not keep to it."""
+"""The schemas of vehicle files and schemes, and what is said of a file that does not keep to one."""
 
 import json
 import math
@@ -12,8 +12,8 @@ from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
 
 
-def check_schema(data: Any, source: str) -> None:  # noqa: ANN401
-    """Hold the data of a vehicle file to the schema.
+def check_schema(data: Any, source: str, schema: str = "vehicle.schema.json") -> None:  # noqa: ANN401
+    """Hold the data of a file to a schema of `config`.
 
     Raises
     ------
@@ -27,7 +27,7 @@ def check_schema(data: Any, source: str) -> None:  # noqa: ANN401
             raise VehicleError(source, key, f"{shown}: expected a finite number")
     for key in _nameless(data, ""):
         raise VehicleError(source, key, "unknown key; expected a name")
-    errors = sorted(_validator().iter_errors(data), key=lambda error: list(map(str, error.path)))
+    errors = sorted(_validator(schema).iter_errors(data), key=lambda error: list(map(str, error.path)))
     if errors:
         raise _schema_error(errors[0], source)
 
@@ -68,9 +68,9 @@ def _nameless(node: Any, key: str) -> Iterator[str]:  # noqa: ANN401
 
 
 @cache
-def _validator() -> Draft202012Validator:
-    schema = share_directory() / "config" / "vehicle.schema.json"
-    return Draft202012Validator(json.loads(schema.read_text(encoding="utf-8")))
+def _validator(schema: str) -> Draft202012Validator:
+    path = share_directory() / "config" / schema
+    return Draft202012Validator(json.loads(path.read_text(encoding="utf-8")))
 
 
 def _join(key: str, name: str) -> str:

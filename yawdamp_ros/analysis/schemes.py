@@ -1,0 +1,227 @@
+"""Schemes of levels: data files that say which measures count, and against which limits."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.files import read_text
+from yawdamp_ros.plain_yaml import parse_yaml
+from yawdamp_ros.share import share_directory
+from yawdamp_ros.vehicle import VehicleError
+from yawdamp_ros.vehicle.schema import check_schema
+
+DEFAULT_SCHEME = "lateral"
+KINDS = ("most", "least", "above")
+SIGNS = {"most": "<=", "least": ">=", "above": ">"}
+LARGEST_FILE, MOST_VALUES = 1 << 16, 2000
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """What a scheme asks of a measure.
+
+    Attributes
+    ----------
+    measure : str
+    kind : str
+        ``least`` and ``above`` bound the value from below, ``most`` from above.
+    limits : tuple of float
+        In the measure's unit, or per unit of another measure; one for each level, or one for all.
+    times : str
+        Measure that the limits are multiplied by; empty for none.
+    text : str
+        As tables show it.
+    note : str
+        What the file says besides.
+    """
+
+    measure: str
+    kind: str
+    limits: tuple[float, ...]
+    times: str = ""
+    text: str = ""
+    note: str = ""
+
+    def limit(self, level: int, values: Mapping[str, float | None]) -> float | None:
+        """Limit of a level; None where it depends on a measure without a value.
+
+        Parameters
+        ----------
+        level : int
+            Its place among the scheme's levels.
+        values : mapping of str to float or None
+            Of the measures.
+
+        Returns
+        -------
+        float or None
+        """
+        limit = self.limits[min(level, len(self.limits) - 1)]
+        if not self.times:
+            return limit
+        factor = values.get(self.times)
+        return None if factor is None else limit * factor
+
+    def met(self, value: float, level: int, values: Mapping[str, float | None]) -> bool | None:
+        """Whether a value meets a level; None where its limit is not known."""
+        limit = self.limit(level, values)
+        if limit is None:
+            return None
+        return {"least": value >= limit, "above": value > limit, "most": value <= limit}[self.kind]
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """Measures that count, and their limits.
+
+    Attributes
+    ----------
+    name, title : str
+    levels : tuple of str
+        The hardest first; one without a name where the scheme has none.
+    measures : tuple of str
+        In the order of the file.
+    requirements : tuple of Requirement
+    sources : tuple of str
+        Where the limits were read.
+
+    Examples
+    --------
+    >>> scheme = load_scheme("pbs")
+    >>> scheme.levels
+    ('1', '2', '3', '4')
+    >>> [limit.limits for limit in scheme.of("tail_swing")]
+    [(0.3, 0.35, 0.35, 0.5)]
+    """
+
+    name: str
+    title: str
+    levels: tuple[str, ...]
+    measures: tuple[str, ...]
+    requirements: tuple[Requirement, ...]
+    sources: tuple[str, ...]
+
+    def of(self, measure: str) -> tuple[Requirement, ...]:
+        """Return the requirements of a measure.
+
+        Parameters
+        ----------
+        measure : str
+        """
+        return tuple(each for each in self.requirements if each.measure == measure)
+
+    def level(self, name: str) -> int:
+        """Place of a level by its name.
+
+        Parameters
+        ----------
+        name : str
+
+        Raises
+        ------
+        AnalysisError
+            If the scheme has no such level.
+        """
+        if name not in self.levels or not name:
+            known = f"one of {', '.join(self.levels)}" if self.levels[0] else "none: the scheme has no levels"
+            message = f"level: {name}: {self.name}: expected {known}"
+            raise AnalysisError(message)
+        return self.levels.index(name)
+
+
+def builtin_schemes() -> tuple[str, ...]:
+    """Names of the schemes that come with the package.
+
+    Examples
+    --------
+    >>> builtin_schemes()
+    ('lateral', 'pbs', 'rtac')
+    """
+    return tuple(sorted(path.stem for path in _directory().glob("*.yaml")))
+
+
+def load_scheme(scheme: str | Path) -> Scheme:
+    """Read a scheme by builtin name or from a file.
+
+    Parameters
+    ----------
+    scheme : str or Path
+        One of `builtin_schemes`, or the path of a YAML file.
+
+    Returns
+    -------
+    Scheme
+
+    Raises
+    ------
+    AnalysisError
+        If there is no such scheme, or its file is not valid; the message names file, key and what was
+        expected.
+    """
+    source = str(scheme) or "''"
+    known = builtin_schemes()
+    path = _directory() / f"{source}.yaml" if source in known else Path(source)
+    try:
+        data = parse_yaml(read_text(path, LARGEST_FILE), MOST_VALUES)
+        check_schema(data, source, "scheme.schema.json")
+    except FileNotFoundError as error:
+        message = f"{source}: no such scheme; expected a file or one of {', '.join(known)}"
+        raise AnalysisError(message) from error
+    except OSError as error:
+        message = f"{source}: cannot be read: {error.strerror}"
+        raise AnalysisError(message) from error
+    except VehicleError as error:
+        raise AnalysisError(str(error)) from error
+    except ValueError as error:  # no UTF-8 or no YAML
+        message = f"{source}: {error}"
+        raise AnalysisError(message) from error
+    return _build(data, source)
+
+
+def _build(data: dict[str, Any], source: str) -> Scheme:
+    from yawdamp_ros.analysis.measures import ALL_MEASURES  # noqa: PLC0415 - which loads much of SciPy
+
+    levels = tuple(data.get("levels", [""]))
+    names = tuple(entry["measure"] for entry in data["measures"])
+    requirements = tuple(_requirements(data["measures"], source, len(levels)))
+    for place, name in enumerate(names):
+        if name not in ALL_MEASURES:
+            message = f"{source}: measures.{place}: {name}: expected one of {', '.join(ALL_MEASURES)}"
+            raise AnalysisError(message)
+        if names.index(name) != place:
+            message = f"{source}: measures.{place}: {name}: expected every measure once"
+            raise AnalysisError(message)
+    for each in requirements:
+        if each.times and each.times not in ALL_MEASURES:
+            message = f"{source}: {each.measure}: times: {each.times}: expected a measure"
+            raise AnalysisError(message)
+    return Scheme(data["name"], data["title"], levels, names, requirements, tuple(data["sources"]))
+
+
+def _requirements(entries: list[dict[str, Any]], source: str, levels: int) -> Iterator[Requirement]:
+    for place, entry in enumerate(entries):
+        for limit in entry.get("require", ()):
+            (kind,) = (kind for kind in KINDS if kind in limit)
+            values = limit[kind] if isinstance(limit[kind], list) else [limit[kind]]
+            if len(values) not in {1, levels}:
+                message = (
+                    f"{source}: measures.{place}.require: {kind}: {len(values)} limits: "
+                    f"expected one, or one for each of {levels} levels"
+                )
+                raise AnalysisError(message)
+            times = limit.get("times", "")
+            text = f"{SIGNS[kind]} {', '.join(f'{value:g}' for value in values)}" + (times and f" x {times}")
+            yield Requirement(
+                entry["measure"],
+                kind,
+                tuple(map(float, values)),
+                times,
+                limit.get("text", text),
+                limit.get("note", ""),
+            )
+
+
+def _directory() -> Path:
+    return share_directory() / "config" / "schemes"

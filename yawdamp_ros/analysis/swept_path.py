@@ -1,0 +1,202 @@
+"""What a turning vehicle sweeps: width of its path, and what swings out of it.
+
+Everything is measured across the path of the guided tyre (`low_speed_turn`): inwards is positive. A side of a
+body is furthest in abreast of its unsteered axles, for there it moves along itself; furthest out are corners.
+
+The definitions are those of the Australian PBS scheme, read in short at nhvr.gov.au and else in secondary
+sources: Standards and Vehicle Assessment Rules, 2008.
+"""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.analysis.tractrix import RIGHT_ANGLE, Turn, low_speed_turn
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.vehicle import Vehicle
+
+STATIONS = 4000
+"""Places along the guided path at which widths are taken."""
+
+
+def low_speed_swept_path(vehicle: Vehicle) -> float:
+    """Largest width that the vehicle sweeps, across the path of the outer front tyre [m].
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    AnalysisError
+        If the vehicle cannot turn so.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> 5.0 < low_speed_swept_path(load_vehicle("tractor_semitrailer")) < 7.0
+    True
+    """
+    inner, outer = envelope(low_speed_turn(vehicle))
+    return float((inner - outer).max())
+
+
+def frontal_swing(vehicle: Vehicle) -> float:
+    """How far the lead unit's front corner swings out of the path of the outer front tyre [m].
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        As for `low_speed_swept_path`.
+
+    Returns
+    -------
+    float
+    """
+    return float(_front_swing(low_speed_turn(vehicle), 0).max())
+
+
+def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
+    """By how much a trailer's front corner swings out further than that of the unit ahead, at one place [m].
+
+    What does not swing out of the path of the outer front tyre counts as 0.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        As for `low_speed_swept_path`.
+
+    Returns
+    -------
+    float or None
+        None where no trailer has a body; the largest of several.
+    """
+    turn = low_speed_turn(vehicle)
+    pairs = _pairs(turn)
+    return max((float((_front_swing(turn, b) - _front_swing(turn, a)).max()) for a, b in pairs), default=None)
+
+
+def frontal_swing_difference_of_maxima(vehicle: Vehicle) -> float | None:
+    """By how much a trailer's front corner at its furthest is further out than that of the unit ahead [m].
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        As for `low_speed_swept_path`.
+
+    Returns
+    -------
+    float or None
+        None where no trailer has a body; the largest of several.
+    """
+    turn = low_speed_turn(vehicle)
+    pairs = _pairs(turn)
+    return max(
+        (float(_front_swing(turn, b).max() - _front_swing(turn, a).max()) for a, b in pairs), default=None
+    )
+
+
+def tail_swing(vehicle: Vehicle) -> float:
+    """How far a rear corner swings out of the straight way that it came, as the turn begins [m].
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        As for `low_speed_swept_path`.
+
+    Returns
+    -------
+    float
+        The largest of the units that have a body.
+    """
+    turn = low_speed_turn(vehicle)
+    found = [0.0]
+    for index, unit in enumerate(turn.geometry):
+        if unit.body:
+            _, y = turn.path(index, unit.rear, -unit.half_width)
+            found.append(float((y[0] - y).max()))
+    return max(found)
+
+
+def envelope(turn: Turn) -> tuple[FloatArray, FloatArray]:
+    """Innermost and outermost of all that is swept, across the guided path.
+
+    Parameters
+    ----------
+    turn : Turn
+
+    Returns
+    -------
+    inner, outer : ndarray, shape (STATIONS,)
+        Inwards positive, at even stations along the guided path [m].
+    """
+    stations = _stations(turn)
+    inner = np.full(STATIONS, -np.inf)
+    outer = np.zeros(STATIONS)
+    for index, unit in enumerate(turn.geometry):
+        inner = np.maximum(inner, _across(turn, index, 0.0, unit.half_width, stations))
+        for end in (unit.front, unit.rear):
+            if unit.body:
+                outer = np.minimum(outer, _across(turn, index, end, -unit.half_width, stations))
+    return inner, outer
+
+
+def _stations(turn: Turn) -> FloatArray:
+    back = sum(unit.leader for unit in turn.geometry)
+    return np.linspace(-back, float(turn.way[-1]), STATIONS)
+
+
+def _pairs(turn: Turn) -> list[tuple[int, int]]:
+    """Units with a body, each with the one behind it that has one."""
+    bodies = [index for index, unit in enumerate(turn.geometry) if unit.body]
+    return list(pairwise(bodies))
+
+
+def _front_swing(turn: Turn, unit: int) -> FloatArray:
+    """How far out a unit's front corner is at every station, 0 within the guided path [m]."""
+    own = turn.geometry[unit]
+    return np.maximum(-_across(turn, unit, own.front, -own.half_width, _stations(turn)), 0.0)
+
+
+def _across(turn: Turn, unit: int, forward: float, left: float, stations: FloatArray) -> FloatArray:
+    """Distance of a point's path from the guided path at stations along it, inwards positive [m]."""
+    way, inwards = along_guide(turn, *turn.path(unit, forward, left))
+    return np.interp(stations, np.maximum.accumulate(way), inwards)
+
+
+def along_guide(turn: Turn, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Places along the guided path of a right-angled turn, and distances across it.
+
+    A point beyond the centre of the arc lies on the line that runs on through it.
+
+    Parameters
+    ----------
+    turn : Turn
+    x, y : ndarray, shape (m,)
+        In m.
+
+    Returns
+    -------
+    way, inwards : ndarray, shape (m,)
+        In m.
+    """
+    if not math.isclose(turn.angle, RIGHT_ANGLE):
+        message = f"turn of {math.degrees(turn.angle):g} degrees: swept paths are measured in one of 90"
+        raise AnalysisError(message)
+    radius = turn.radius
+    up = y - radius
+    distance = np.hypot(x, up)
+    places = [(x >= 0.0) & (up <= 0.0), (x < 0.0) & (up > 0.0), x < 0.0]
+    way = np.select(
+        places,
+        [radius * np.arctan2(x, -up), radius * np.arctan2(-x, up), x],
+        radius * RIGHT_ANGLE + up,
+    )
+    inwards = np.select(places, [radius - distance, radius + distance, y], radius - x)
+    return way, inwards
