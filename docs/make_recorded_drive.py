@@ -65,7 +65,7 @@ def drive(place: Path) -> None:
     command = [sys.executable, "-m", "yawdamp_ros"]
     changes = [word for change in TRUTH for word in ("--set", change)]
     settings = {
-        "speed_source": "topic",
+        "longitudinal_source": "speed",
         "record_directory": "run",
         "yaw_rate_stddev": 0.004,
         "lateral_acceleration_stddev": 0.12,

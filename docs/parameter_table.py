@@ -1,14 +1,19 @@
-"""Write parameters and outputs, as declared, into the README and config/sim.yaml: `make parameters`."""
+"""Write parameters, inputs and outputs, into the README and config/sim.yaml: `make parameters`."""
 
 import math
 import sys
 from pathlib import Path
 
 from yawdamp_ros.runs.outputs import OUTPUTS, Of
+from yawdamp_ros.simulation import make_motion
+from yawdamp_ros.simulation.inputs import INPUTS
 from yawdamp_ros.simulation.settings import PARAMETERS, SimParameters
+from yawdamp_ros.simulation.steering_messages import STEERING_TYPES
+from yawdamp_ros.vehicle import load_vehicle
 
 ROOT = Path(__file__).parents[1]
 HEAD = "| parameter | default | |\n|---|---|---|\n"
+INPUT_HEAD = "| in | type | |\n|---|---|---|\n"
 OUTPUT_HEAD = "| out | type | |\n|---|---|---|\n"
 FILE_HEAD = """\
 # Parameters of the simulator node, with their defaults:
@@ -20,13 +25,30 @@ FILE_HEAD = """\
 
 
 def readme(text: str) -> str:
-    """README with its tables of parameters and outputs renewed."""
+    """README with its tables of parameters, inputs and outputs renewed."""
     before, _, rest = text.partition(HEAD)
     after = rest.partition("\n\n")[2]
     text = f"{before}{table()}\n\n{after}"
+    before, _, rest = text.partition(INPUT_HEAD)
+    after = rest.partition("\n\n")[2]
+    text = f"{before}{input_table()}\n{after}"
     before, _, rest = text.partition(OUTPUT_HEAD)
     after = rest.partition("| `/diagnostics` |")[2]
     return f"{before}{output_table()}| `/diagnostics` |{after}"
+
+
+def input_table() -> str:
+    """Table of what acts on a run in Markdown; a line each."""
+    kinds = ", ".join(kind.replace("/msg/", "/") for kind in STEERING_TYPES)
+    angle = "road-wheel steer angle, left positive, divided by `steering_ratio`, rad"
+    rows = [f"| `steering` | by `steering_type`: {kinds} | {angle} |\n"]
+    linear = make_motion(load_vehicle("interlink"), "consistent", None, 0.001)
+    for each in INPUTS:
+        of_model = "" if each.topic in linear.input_names else "nonlinear model: "
+        unit = each.unit.replace("^2", "²")
+        described = f"{of_model}{each.description}, {unit}, {each.low:g} to {each.high:g}"
+        rows.append(f"| `{each.topic}` | std_msgs/Float64 | {described} |\n")
+    return INPUT_HEAD + "".join(rows)
 
 
 def output_table() -> str:

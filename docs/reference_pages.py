@@ -23,6 +23,7 @@ def write(directory: Path) -> None:
     pages = {
         "commands.md": _commands(),
         "parameters.md": _parameters(),
+        "topics.md": _topics(),
         "vehicle_file.md": _vehicle_file(),
         "library.md": _library(),
     }
@@ -62,6 +63,17 @@ def _parameters() -> str:
         "Set a parameter with `--ros-args -p NAME:=VALUE`, with `--params-file`, or, where the table says "
         "*while running*, with `ros2 param set`. Write a number as it is declared: `100.0`, not `100`.\n\n"
         f"{parameter_table.table()}\n"
+    )
+
+
+def _topics() -> str:
+    return (
+        "# Topics of the node\n\n"
+        "The newest command wins and is held. What is no number is rejected, what is out of range clamped; "
+        "each is counted in `/diagnostics` (`inputs`) and logged. Every input is recorded as it was applied, "
+        "so that `resimulate` repeats the run.\n\n"
+        f"{parameter_table.input_table()}\n"
+        f"{parameter_table.output_table()}\n"
     )
 
 

@@ -120,7 +120,7 @@ def test_jumps_of_the_system_clock_move_stamps_and_neither_time_nor_rate(graph: 
 def test_jumps_back_of_the_system_clock_hold_nothing_up_and_silence_nothing(graph: Graph) -> None:
     clock = SystemClock(graph.directory)
     graph.environment |= clock.environment
-    process = started(graph, "speed_source:=topic")
+    process = started(graph, "longitudinal_source:=speed")
     publisher = graph.publisher(Float64, "/speed")
     statuses = graph.statuses()
 

@@ -57,7 +57,8 @@ def test_the_readmes_lines_sign_them(tmp_path: Path) -> None:
 
 @pytest.mark.graph
 def test_the_permissions_are_all_that_the_node_says_and_hears_and_nothing_else(graph: Graph) -> None:
-    extras = ["publish_clock:=true", "publish_markers:=true", "speed_source:=topic"]
+    extras = ["publish_clock:=true", "publish_markers:=true", "model:=nonlinear"]
+    extras.append("vehicle_overrides:=[units.1.axles.0.steered=commanded]")
     options = [word for extra in extras for word in ("-p", extra)]
     process = graph.command("sim", "--no-record", "--ros-args", *options)
     node = graph.node

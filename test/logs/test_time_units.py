@@ -52,7 +52,17 @@ def test_a_log_of_more_than_a_day_asks_for_its_duration(
     assert "lasts 299000 s, more than a day: say --duration" in capsys.readouterr().err
 
 
-def test_what_is_not_followed_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = log(tmp_path, "time", 0, 1, samples=3)
+def test_what_is_followed_and_what_is_not_are_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "drive.csv"
+    path.write_text(
+        "time,steering,speed_mps,friction,yaw_rate\n0,0,20,0.3,0\n1,0,20,0.3,0\n", encoding="utf-8"
+    )
     assert run(["simulate", "--log", str(path), "--output", str(tmp_path / "run.csv")]) == 0
-    assert capsys.readouterr().err.splitlines()[0] == f"note: {path}: not followed: speed (column speed_mps)"
+    told = capsys.readouterr()
+    assert "following the log: 2 speeds of 20.00 to 20.00 m/s" in told.out
+    assert told.err.splitlines() == [
+        f"note: {path}: not followed: yaw_rate (column yaw_rate)",
+        f"note: {path}: not followed: friction",  # by a linear model
+    ]

@@ -3,7 +3,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from graph import values
-from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
+from yawdamp_ros.nodes.diagnostics import Diagnosis, InputReading, Readings
 from yawdamp_ros.nodes.neighbours import Finding, Neighbourhood
 from yawdamp_ros.nodes.states import Problem, RecorderState
 from yawdamp_ros.stepping import Verdict
@@ -20,7 +20,7 @@ IN_ORDER = Readings(
     steering_timed_out=False,
     manoeuvre="",
     commands={Verdict.ACCEPTED: 5, Verdict.CLAMPED: 0, Verdict.STALE: 0},
-    speeds={Verdict.ACCEPTED: 0, Verdict.BACKWARDS: 0},
+    inputs={"speed": InputReading(22.5, None, {Verdict.ACCEPTED: 0, Verdict.BACKWARDS: 0})},
     neighbourhood=ALONE,
     recorder=RecorderState.RECORDING,
     recorder_detail="runs/a",
@@ -52,6 +52,7 @@ def test_good_order_is_ok_in_every_part() -> None:
     assert {part: told(status) for part, status in statuses.items()} == {
         "timing": (b"\0", "in_time"),
         "steering": (b"\0", "commanded"),
+        "inputs": (b"\0", "no_command"),
         "recorder": (b"\0", "recording"),
         "model": (b"\0", "stable"),
     }
@@ -64,7 +65,6 @@ def test_good_order_is_ok_in_every_part() -> None:
 def test_every_count_is_told_under_the_key_of_its_verdict() -> None:
     steering = values(looks(IN_ORDER)["steering"])
     assert (steering["accepted"], steering["clamped"], steering["rejected_stale"]) == ("5", "0", "0")
-    assert steering["speed_rejected_backwards"] == "0"
 
 
 def test_dropped_steps_warn_at_the_look_that_sees_them_and_not_at_the_next() -> None:
@@ -89,9 +89,23 @@ def test_a_rejected_command_warns_once_with_its_key() -> None:
 
 
 def test_the_speed_s_problems_are_told_apart_from_the_steering_s() -> None:
-    backwards = with_changes(speeds={Verdict.ACCEPTED: 0, Verdict.BACKWARDS: 1})
-    steering = looks(IN_ORDER, backwards)["steering"]
-    assert values(steering)["problems"] == "speed_rejected_backwards"
+    reading = InputReading(20.0, 0.25, {Verdict.ACCEPTED: 1, Verdict.BACKWARDS: 1})
+    backwards = with_changes(inputs={"speed": reading})
+    statuses = looks(IN_ORDER, backwards)
+    assert told(statuses["steering"]) == (b"\0", "commanded")
+    assert told(statuses["inputs"]) == (b"\1", "commanded")
+    inputs = values(statuses["inputs"])
+    assert inputs["problems"] == "speed_rejected_backwards"
+    assert (inputs["speed"], inputs["speed_rejected_backwards"]) == ("20, 0.250 s ago", "1")
+    assert told(looks(IN_ORDER, backwards, backwards)["inputs"])[0] == b"\0"
+
+
+def test_two_sources_of_one_input_are_told_by_its_topic() -> None:
+    crowd = Finding(Problem.SEVERAL_PUBLISHERS, "/trailer_1/brake: 2 publish at once", "/trailer_1/brake")
+    statuses = looks(with_changes(neighbourhood=Neighbourhood(0, (crowd,))))
+    assert told(statuses["steering"])[0] == b"\0"
+    assert statuses["inputs"].message == "/trailer_1/brake: 2 publish at once"
+    assert values(statuses["inputs"])["problems"] == "several_publishers"
 
 
 def test_the_origin_of_the_steering_is_told() -> None:

@@ -47,7 +47,8 @@ def test_what_may_change_changes() -> None:
         ({"speed": 18}, "parameter speed: 18: expected a double, write 18.0"),
         ({"speed": 400.0}, "parameter speed: 400.0: expected a number from"),
         ({"speed": math.nan}, "parameter speed: nan: expected a number from"),
-        ({"speed": 0.0}, "speed: 0.0: .* no model can stand still yet; leave it out for the vehicle's own"),
+        ({"speed": 0.0}, "speed: 0.0: model consistent cannot stand .* leave it out for the vehicle's own"),
+        ({"longitudinal_source": "acceleration"}, "expected model nonlinear"),
         ({"on_steering_timeout": "panic"}, "on_steering_timeout: 'panic': expected one of hold, zero"),
         ({"real_time_factor": 0.05}, "real_time_factor: 0.05: expected 0, or 0.1 to 100"),
         ({"record_directory": "/etc"}, "record_directory: '/etc': expected one below the working directory"),
@@ -163,9 +164,9 @@ def test_a_speed_of_0_is_refused_and_is_not_the_vehicle_s_own(speed: str) -> Non
 
 
 def test_the_speed_of_the_topic_is_not_a_parameter_s_to_set() -> None:
-    followed = SimParameters(speed=20.0, speed_source="topic")
+    followed = SimParameters(speed=20.0, longitudinal_source="speed")
     assert followed.problem() == ""
-    with pytest.raises(NodeError, match="publish the speed there"):
+    with pytest.raises(NodeError, match="publish there"):
         changed(followed, asked(speed=15.0))
 
 

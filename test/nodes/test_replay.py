@@ -166,7 +166,7 @@ def test_what_the_node_made_of_a_drive_simulate_makes_of_its_recording_to_the_la
     path = tmp_path / "drive.csv"
     rows = [f"{0.02 * row},{0.04 * math.sin(0.05 * row)},{15.0 + 0.03 * row}" for row in range(100)]
     path.write_text("\n".join(["time,steering,speed", *rows]), encoding="utf-8")
-    process = graph.command("sim", "--ros-args", "-p", "speed_source:=topic")
+    process = graph.command("sim", "--ros-args", "-p", "longitudinal_source:=speed")
     until(lambda: graph.publishers("/joint_states") == 1, "the simulator")
     assert outcome(graph.command("replay", str(path)))[0] == 0
     stop(process)

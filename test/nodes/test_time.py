@@ -149,7 +149,7 @@ def test_a_clock_that_is_refused_stays_in(graph: Graph) -> None:
 
 
 def test_the_speed_in_force_is_told_and_shows_in_the_imu_while_it_changes(graph: Graph) -> None:
-    process = graph.command("sim", "--speed", "18", "--ros-args", "-p", "speed_source:=topic")
+    process = graph.command("sim", "--speed", "18", "--ros-args", "-p", "longitudinal_source:=speed")
     until(lambda: graph.publishers("/truck/odom") == 1, "the node")
     assert graph.parameter("/yawdamp_sim", "speed") == 18.0
     publisher = graph.publisher(Float64, "/speed")

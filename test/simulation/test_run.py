@@ -124,7 +124,7 @@ def test_reset_and_speed_act_together_at_the_first_step_of_the_next_sample() -> 
     run.start()
     run.advance(50)
     commands.reset()
-    commands.speed_input.offer(15.0)
+    commands.held["speed"].offer(15.0, 0)
     run.advance()
     assert [(entry.name, entry.step) for entry in kept.samples[-1].inputs] == [("reset", 501), ("speed", 501)]
     assert abs(float(kept.samples[-1].x[0])) < 0.2

@@ -3,11 +3,11 @@
 import argparse
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.drives import Drive
+from yawdamp_ros.drives import Drive, is_input
 from yawdamp_ros.errors import one_line
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.drive_formats import format_of, load_drive
@@ -79,9 +79,12 @@ def chosen_drive(path: str, options: argparse.Namespace, duration: float | None)
 
 
 def chosen_log(
-    path: str, options: argparse.Namespace, duration: float | None, followed: Sequence[str] = ("steering",)
+    path: str,
+    options: argparse.Namespace,
+    duration: float | None,
+    followed: Callable[[str], bool],
 ) -> SteeringLog:
-    """Steering and speed of a drive of a path as they were commanded, cut as the options say.
+    """Steering and other inputs of a drive of a path as they were commanded, cut as the options say.
 
     What else it holds, besides the channels that are followed, is named on standard error.
 
@@ -93,7 +96,7 @@ def chosen_log(
     steering_ratio(options)
     drive = _read(path, options, duration, measured=False)
     steering, speed = drive["steering"], drive.channels.get("speed")
-    others = [f"{name} ({each.source})" for name, each in drive.channels.items() if name not in followed]
+    others = [f"{name} ({each.source})" for name, each in drive.channels.items() if not followed(name)]
     if others:
         print(one_line(f"note: {drive.source}: not followed: {', '.join(others)}"), file=sys.stderr)
     return SteeringLog(
@@ -104,6 +107,11 @@ def chosen_log(
         drive.warning,
         () if speed is None else speed.times.tolist(),
         () if speed is None else speed.values.tolist(),
+        {
+            name: (each.times.tolist(), each.values.tolist())
+            for name, each in drive.channels.items()
+            if name != "steering" and is_input(name)
+        },
     )
 
 

@@ -46,6 +46,7 @@ class _Once(argparse.Action):
 
 
 RUN_SETTINGS = (
+    "longitudinal_source",
     "max_steering_angle",
     "steering_timeout",
     "on_steering_timeout",
@@ -54,7 +55,7 @@ RUN_SETTINGS = (
     "max_lateral_acceleration",
     "max_articulation",
 )
-"""Of `SimParameters`: what becomes of the steering, and where a run is stopped."""
+"""Of `SimParameters`: what drives, what becomes of the steering, and where a run is stopped."""
 
 
 class Parser(argparse.ArgumentParser):

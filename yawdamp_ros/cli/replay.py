@@ -26,8 +26,9 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
         message = f"--rate: {options.rate}: expected a number above 0"
         raise UsageError(message)
     ratio = steering_ratio(options)
-    followed = ("steering", "speed")
-    log = chosen_log(options.log, options, options.duration, followed).divided(ratio)
+    log = chosen_log(
+        options.log, options, options.duration, lambda name: name in {"steering", "speed"}
+    ).divided(ratio)
     if options.loop and not log.duration:
         message = "--loop: the log is of one instant"
         raise UsageError(message)
@@ -45,7 +46,7 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
             flush=True,
         )
         if log.speeds:
-            print(f"with {speed_line(log)}, for a node whose speed_source is topic", flush=True)
+            print(f"with {speed_line(log)}, for a node whose longitudinal_source is speed", flush=True)
         with spinning(node):
             if options.wait:
                 node.wait_for_subscriber()

@@ -30,6 +30,8 @@ from yawdamp_ros.cli.options import (
 )
 from yawdamp_ros.cli.peaks_table import peaks_record, print_events, print_peaks
 from yawdamp_ros.cli.ros import require_ros
+from yawdamp_ros.drives import is_input
+from yawdamp_ros.errors import one_line
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.room import check_room
 from yawdamp_ros.nodes.stop_request import StopRequest
@@ -45,6 +47,8 @@ from yawdamp_ros.simulation import (
     Sink,
     make_motion,
 )
+from yawdamp_ros.simulation.commands import Signal
+from yawdamp_ros.simulation.inputs import LONGITUDINAL
 from yawdamp_ros.stepping import Motion, Sample, TimeGrid, Verdict
 from yawdamp_ros.vehicle import Vehicle, vehicle_source
 
@@ -52,8 +56,6 @@ DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
 DAY = 86400.0
 """Simulated time beyond which a log's length is not taken for what is wanted [s]."""
-Signal = tuple[Sequence[float], Sequence[float]]
-"""Times in s, and values that hold until the next."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -63,7 +65,7 @@ def main(arguments: Sequence[str]) -> int:
     log, settings = _settings(options, vehicle)
     grid = TimeGrid.of(settings.step_size, _sample_period(options))
     motion = make_motion(vehicle, settings.model, None, grid.step_size)
-    commands = Commands(settings, grid, motion, *_played(log, options))
+    commands = Commands(settings, grid, motion, *_played(log, options, motion))
     if growing := growth(motion.linearise()):
         print(f"warning: {growing}", file=sys.stderr)
     output = Path(options.output or default_run_directory(vehicle.name))
@@ -98,17 +100,24 @@ def main(arguments: Sequence[str]) -> int:
     return 1 if run.stopped else 0
 
 
-def _played(log: SteeringLog | None, options: argparse.Namespace) -> list[Signal]:
-    """Steering of a log and, unless a speed was asked for, its speed."""
+def _played(
+    log: SteeringLog | None, options: argparse.Namespace, motion: Motion
+) -> tuple[Signal | None, dict[str, Signal]]:
+    """Steering of a log and the other inputs that are followed, by name; what is not is said."""
     if log is None:
-        return []
-    if not log.speeds:
-        return [(log.times, log.angles)]
-    if options.speed is not None:
+        return None, {}
+    source = options.longitudinal_source or "speed"
+    inputs = dict(log.inputs)
+    left = [name for name in LONGITUDINAL if name in inputs and name != source]
+    left += [name for name in inputs if name not in {*LONGITUDINAL, *motion.input_names}]
+    if "speed" in inputs and source == "speed" and options.speed is not None:
         print(f"--speed counts; the log's own is not followed: {speed_line(log)}")
-        return [(log.times, log.angles)]
-    print(f"following the log: {speed_line(log)}")
-    return [(log.times, log.angles), (log.speed_times, log.speeds)]
+        del inputs["speed"]
+    elif "speed" in inputs and source == "speed":
+        print(f"following the log: {speed_line(log)}")
+    if left:
+        print(one_line(f"note: {log.source}: not followed: {', '.join(left)}"), file=sys.stderr)
+    return (log.times, log.angles), {name: each for name, each in inputs.items() if name not in left}
 
 
 def _carry_out(run: Run, samples: int, stop: StopRequest) -> None:
@@ -175,7 +184,7 @@ def _log(options: argparse.Namespace) -> SteeringLog | None:
             message = f"--output: {options.output}: that is the log"
             raise UsageError(message)
         steering_ratio(options)
-        log = chosen_log(options.log, options, options.duration)
+        log = chosen_log(options.log, options, options.duration, is_input)
         if options.duration is None and log.duration > DAY:
             message = f"{options.log}: lasts {log.duration:g} s, more than a day: say --duration"
             raise UsageError(message)

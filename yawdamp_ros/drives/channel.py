@@ -20,6 +20,10 @@ QUANTITIES: Mapping[str, str] = MappingProxyType(
         "articulation": "rad",
         "x": "m",
         "y": "m",
+        "gear": "1",
+        "friction": "1",
+        "brake": "m/s^2",
+        "yaw_moment": "N m",
     }
 )
 """Quantities that a drive can hold, each with the unit in which it is kept."""
@@ -36,6 +40,8 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
         "m/s^2": ("m/s^2", 1.0),
         "g": ("m/s^2", 9.80665),
         "m": ("m", 1.0),
+        "1": ("1", 1.0),
+        "N m": ("N m", 1.0),
     }
 )
 """Units that a log may use, each with the SI unit and the factor to it."""

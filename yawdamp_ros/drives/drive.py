@@ -8,7 +8,20 @@ import numpy as np
 from yawdamp_ros.drives.channel import Channel
 from yawdamp_ros.drives.errors import DriveError
 
-INPUTS = ("steering", "speed", "acceleration")
+INPUTS = ("steering", "speed", "acceleration", "gear", "friction")
+
+
+def is_input(name: str) -> bool:
+    """Whether a channel acts on a vehicle, rather than was measured on it.
+
+    Examples
+    --------
+    >>> [is_input(name) for name in ("speed", "trailer_1/brake", "trailer_1/yaw")]
+    [True, True, False]
+    """
+    return name in INPUTS or name.rpartition("/")[2] in {"steering", "brake", "yaw_moment"}
+
+
 """Channels that act on a vehicle; every other one was measured on it."""
 
 
@@ -56,7 +69,7 @@ class Drive:
     @property
     def measured(self) -> tuple[Channel, ...]:
         """Channels that are no input."""
-        return tuple(channel for name, channel in self.channels.items() if name not in INPUTS)
+        return tuple(channel for name, channel in self.channels.items() if not is_input(name))
 
     @property
     def duration(self) -> float:

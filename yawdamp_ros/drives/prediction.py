@@ -15,7 +15,7 @@ from scipy.linalg import expm
 from yawdamp_ros.drives.drive import Drive
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.stepping.speed_input import HIGHEST_SPEED, LOWEST_FOLLOWED
+from yawdamp_ros.stepping.held_input import HIGHEST_SPEED, LOWEST_FOLLOWED
 from yawdamp_ros.vehicle import Vehicle
 
 STEP_SIZE = 0.01

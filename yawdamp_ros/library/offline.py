@@ -104,11 +104,10 @@ def _follow(  # noqa: PLR0913, PLR0917 - what `simulate` was told
 ) -> Response:
     motion = make_motion(vehicle, model, speed, grid.step_size)
     followed = drive.speed(motion.speed) if speed is None else None
-    signals = [(drive["steering"].times.tolist(), drive["steering"].values.tolist())]
-    if followed is not None:
-        signals.append((followed.times.tolist(), followed.values.tolist()))
+    log = drive["steering"].times.tolist(), drive["steering"].values.tolist()
+    inputs = {} if followed is None else {"speed": (followed.times.tolist(), followed.values.tolist())}
     kept = _Kept()
-    run = Run(motion, grid, Commands(SimParameters(), grid, motion, *signals), [kept])
+    run = Run(motion, grid, Commands(SimParameters(), grid, motion, log, inputs), [kept])
     run.start()
     run.advance(grid.samples_in(duration))
     return Response.of(kept.samples, vehicle.unit_names, grid)

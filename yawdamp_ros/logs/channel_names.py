@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from yawdamp_ros.drives import QUANTITIES, UNITS, quantity_of
+from yawdamp_ros.drives import INPUTS, QUANTITIES, UNITS, quantity_of
 from yawdamp_ros.logs.errors import LogError
 
 _SPELLINGS = {
@@ -13,6 +13,10 @@ _SPELLINGS = {
     "yaw_rate": "yaw_rate yawrate yaw_velocity heading_rate gyro_z angular_velocity_z",
     "lateral_acceleration": "lateral_acceleration lateral_accel lat_accel lat_acc ay accel_y acceleration_y",
     "yaw": "yaw heading yaw_angle",
+    "gear": "gear",
+    "friction": "friction road_friction",
+    "brake": "brake",
+    "yaw_moment": "yaw_moment",
     "x": "x position_x pos_x",
     "y": "y position_y pos_y",
 }
@@ -69,7 +73,9 @@ def named(name: str) -> Named | None:
     if quantity is None:
         return None
     owner = prefix.rpartition("/")[2]
-    inputs = quantity in {"speed", "acceleration"}
+    if quantity in {"brake", "yaw_moment"} and not owner:
+        return None  # of which unit?
+    inputs = quantity in INPUTS
     return _fitting(f"{owner}/{quantity}" if owner and not inputs else quantity, unit)
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from yawdamp_ros.drives import INPUTS, QUANTITIES, UNITS, Channel, Drive, quantity_of
+from yawdamp_ros.drives import INPUTS, QUANTITIES, UNITS, Channel, Drive, is_input, quantity_of
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs.channel_messages import JOINT_TYPE, MEASURING_TYPES, SCALAR_TYPES, field_names, field_of
 from yawdamp_ros.logs.channel_names import Wish, listed, named
@@ -90,7 +90,7 @@ def read_drive_recording(path: Path, options: DriveOptions, log: Log | None = No
         of_topic = {
             name: place
             for name, place in places.items()
-            if place.topic == each and (options.measured or name in INPUTS)
+            if place.topic == each and (options.measured or is_input(name))
         }
         if of_topic:
             channels |= reader.channels(of_topic, found[each])
@@ -151,7 +151,7 @@ class _Reader:
 def _places(topics: Mapping[str, str], found: Mapping[str, list[RecordedMessage]]) -> dict[str, _Place]:
     """Place of every channel that names and types tell, the best first."""
     scalars = _scalars(topics)
-    inputs = [(name, place) for name, place in scalars if name in INPUTS]
+    inputs = [(name, place) for name, place in scalars if is_input(name)]
     places: dict[str, _Place] = {}
     for name, place in (*inputs, *_typed(topics), *scalars, *_joints(topics, found)):
         places.setdefault(name, place)

@@ -1,8 +1,8 @@
 """A recorded steering signal."""
 
 from bisect import bisect_right
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from yawdamp_ros.logs.errors import LogError
 
@@ -32,6 +32,8 @@ class SteeringLog:
     speed_times, speeds : sequence of float
         Samples of the speed beside it, in s and m/s, each in force until the next; empty where the log
         has none.
+    inputs : mapping of str to (sequence of float, sequence of float)
+        Times in s and values of every other input beside it, the speed among them, by name.
     """
 
     source: str
@@ -41,6 +43,7 @@ class SteeringLog:
     warning: str = ""
     speed_times: Sequence[float] = ()
     speeds: Sequence[float] = ()
+    inputs: Mapping[str, tuple[Sequence[float], Sequence[float]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.duration > LONGEST_LOG:

@@ -9,6 +9,7 @@ from yawdamp_ros.nodes.neighbours import Neighbourhood
 from yawdamp_ros.nodes.states import (
     RECORDER_SENTENCES,
     VERDICT_SENTENCES,
+    InputState,
     ModelState,
     RecorderState,
     SteeringState,
@@ -18,6 +19,24 @@ from yawdamp_ros.stepping import Verdict
 from yawdamp_ros.stepping.time_grid import SECOND
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
+
+class InputReading(NamedTuple):
+    """State of an input besides steering.
+
+    Attributes
+    ----------
+    value : float or None
+        In force; None where nothing is demanded.
+    age : float or None
+        Simulated time since the last one [s]; None before the first.
+    counts : mapping of Verdict to int
+        Values so far by verdict.
+    """
+
+    value: float | None
+    age: float | None
+    counts: Mapping[Verdict, int]
 
 
 class Readings(NamedTuple):
@@ -42,8 +61,8 @@ class Readings(NamedTuple):
         Name of the manoeuvre that steers; empty where the topic does.
     commands : mapping of Verdict to int
         Steering commands by verdict.
-    speeds : mapping of Verdict to int
-        Speeds of the topic by verdict.
+    inputs : mapping of str to InputReading
+        Inputs besides steering, by topic.
     neighbourhood : Neighbourhood
         Who publishes on the inputs.
     recorder : RecorderState
@@ -70,7 +89,7 @@ class Readings(NamedTuple):
     steering_timed_out: bool
     manoeuvre: str
     commands: Mapping[Verdict, int]
-    speeds: Mapping[Verdict, int]
+    inputs: Mapping[str, InputReading]
     neighbourhood: Neighbourhood
     recorder: RecorderState
     recorder_detail: str
@@ -90,9 +109,12 @@ class Diagnosis:
     ----------
     node_name : str
     vehicle_name : str
+    steering_topic : str
+        Fully qualified.
     """
 
-    def __init__(self, node_name: str, vehicle_name: str) -> None:
+    def __init__(self, node_name: str, vehicle_name: str, steering_topic: str = "/steering") -> None:
+        self._steering_topic = steering_topic
         self._node_name = node_name
         self._vehicle_name = vehicle_name
         self._before: Readings | None = None
@@ -113,7 +135,7 @@ class Diagnosis:
         DiagnosticArray
         """
         before = self._before or readings._replace(
-            samples=0, commands={}, speeds={}, messages_lost=0, steps_dropped=0, callback_failures=0
+            samples=0, commands={}, inputs={}, messages_lost=0, steps_dropped=0, callback_failures=0
         )
         self._before = readings
         array = DiagnosticArray()
@@ -121,6 +143,7 @@ class Diagnosis:
         array.status = [
             self._timing(readings, before, elapsed),
             self._steering(readings, before),
+            self._inputs(readings, before),
             self._recorder(readings, before),
             self._model(readings),
         ]
@@ -151,25 +174,47 @@ class Diagnosis:
         )
 
     def _steering(self, now: Readings, before: Readings) -> DiagnosticStatus:
-        commands, speeds = _grown(now.commands, before.commands), _grown(now.speeds, before.speeds)
-        found = now.neighbourhood.findings
+        commands = _grown(now.commands, before.commands)
+        found = [each for each in now.neighbourhood.findings if each.topic in {"", self._steering_topic}]
         state, message, troubles = _steered(now)
         grown = [f"steering {VERDICT_SENTENCES[verdict]}" for verdict in commands]
-        grown += [f"speed {VERDICT_SENTENCES[verdict]}" for verdict in speeds]
         troubles += [finding.sentence for finding in found]
         troubles += [f"since the last look: {'; '.join(grown)}"] if grown else []
-        problems = [*(finding.problem for finding in found), *commands, *(f"speed_{key}" for key in speeds)]
         age = "none yet" if now.steering_age is None else f"{now.steering_age:.3f} s"
         return self._status(
             "steering",
             WARN if troubles else OK,
             "; ".join(troubles) or message,
             state=state,
-            problems=",".join(dict.fromkeys(problems)),
+            problems=",".join(dict.fromkeys([*(finding.problem for finding in found), *commands])),
             age=age,
             publishers=str(now.neighbourhood.publishers),
             **{verdict: str(count) for verdict, count in now.commands.items()},
-            **{f"speed_{verdict}": str(count) for verdict, count in now.speeds.items()},
+        )
+
+    def _inputs(self, now: Readings, before: Readings) -> DiagnosticStatus:
+        found = [each for each in now.neighbourhood.findings if each.topic not in {"", self._steering_topic}]
+        troubles = [finding.sentence for finding in found]
+        problems: list[str] = [finding.problem for finding in found]
+        told, grown = {}, []
+        for name, reading in now.inputs.items():
+            value = "none" if reading.value is None else f"{reading.value:.6g}"
+            told[name] = value if reading.age is None else f"{value}, {reading.age:.3f} s ago"
+            told |= {f"{name}_{verdict}": str(count) for verdict, count in reading.counts.items() if count}
+            for verdict in _grown(
+                reading.counts, before.inputs[name].counts if name in before.inputs else {}
+            ):
+                grown.append(f"{name} {VERDICT_SENTENCES[verdict]}")
+                problems.append(f"{name}_{verdict}")
+        troubles += [f"since the last look: {'; '.join(grown)}"] if grown else []
+        commanded = any(reading.age is not None for reading in now.inputs.values())
+        return self._status(
+            "inputs",
+            WARN if troubles else OK,
+            "; ".join(troubles) or ("commanded" if commanded else "no command yet"),
+            state=InputState.COMMANDED if commanded else InputState.NO_COMMAND,
+            problems=",".join(dict.fromkeys(problems)),
+            **told,
         )
 
     def _recorder(self, now: Readings, before: Readings) -> DiagnosticStatus:

@@ -28,10 +28,13 @@ class Finding(NamedTuple):
     problem : Problem
     sentence : str
         With the topic and who is on it.
+    topic : str
+        Input that it is about; empty of what is about the node.
     """
 
     problem: Problem
     sentence: str
+    topic: str = ""
 
 
 class Neighbourhood(NamedTuple):
@@ -119,13 +122,14 @@ def heard(
     for publisher in publishers:
         if mismatch := _mismatch(expected, publisher.topic_type, publisher.qos_profile, qos):
             problem, reason = mismatch
-            findings.append(Finding(problem, f"{topic}: {endpoint_name(publisher)} is not heard: {reason}"))
+            sentence = f"{topic}: {endpoint_name(publisher)} is not heard: {reason}"
+            findings.append(Finding(problem, sentence, topic))
         else:
             names.append(endpoint_name(publisher))
     if len(names) > 1:
         listed = ", ".join(sorted(names))
         sentence = f"{topic}: {len(names)} publish at once: {listed}; the newest wins"
-        findings.append(Finding(Problem.SEVERAL_PUBLISHERS, sentence))
+        findings.append(Finding(Problem.SEVERAL_PUBLISHERS, sentence, topic))
     return findings
 
 

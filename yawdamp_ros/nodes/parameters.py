@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from yawdamp_ros.nodes.errors import NodeError
-from yawdamp_ros.simulation.settings import FORMER_NAMES, PARAMETERS, SimParameters
+from yawdamp_ros.simulation.settings import FORMER_NAMES, FORMER_VALUES, PARAMETERS, SimParameters
 
 DEEPEST_DIRECTORY = 32
 """Parts of a path that a peer may ask to be recorded to."""
@@ -96,8 +96,9 @@ def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimPara
     wanted = {parameter.name: parameter.value for parameter in parameters if parameter.name in PARAMETERS}
     for name, value in wanted.items():
         _check(name, value)
-    if settings.speed_source == "topic" and "speed" in wanted:
-        message = "parameter speed: follows the topic, as speed_source says; publish the speed there"
+    source = wanted.get("longitudinal_source", settings.longitudinal_source)
+    if source != "parameter" and "speed" in wanted:
+        message = f"parameter speed: follows the topic {source}, as longitudinal_source says; publish there"
         raise NodeError(message)
     directory = wanted.get("record_directory", settings.record_directory)
     if directory != settings.record_directory and not _is_confined(directory):
@@ -160,7 +161,7 @@ def _given(node: Node) -> dict[str, Any]:
             raise NodeError(message)
         if new != name:
             node.get_logger().warning(f"parameter {name}: renamed to {new}; this release accepts both")
-        given[new] = parameter.value
+        given[new] = FORMER_VALUES.get((name, str(parameter.value)), parameter.value)
     return given
 
 

@@ -11,7 +11,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from yawdamp_ros.analysis import least_damping_ratio
 from yawdamp_ros.errors import YawdampError
-from yawdamp_ros.nodes.diagnostics import Diagnosis, Readings
+from yawdamp_ros.nodes.diagnostics import Diagnosis, InputReading, Readings
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.neighbours import Neighbours
 from yawdamp_ros.nodes.parameters import changed
@@ -52,10 +52,14 @@ class Server:
         self._loss_said = 0
         self._silence_said = False
         self._tells_speed = False
-        self._diagnosis = Diagnosis(node.get_fully_qualified_name(), simulator.motion.vehicle.name)
+        self._diagnosis = Diagnosis(
+            node.get_fully_qualified_name(),
+            simulator.motion.vehicle.name,
+            node.resolve_topic_name("steering"),
+        )
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", QUEUE_DEPTH)
         self._guard = guard = simulator.guard
-        self._neighbours = Neighbours(node, ("steering", "speed"), simulator.topics.names)
+        self._neighbours = Neighbours(node, ("steering", *simulator.commands.held), simulator.topics.names)
         node.add_on_set_parameters_callback(self._check_parameters)
         node.add_post_set_parameters_callback(self._use_parameters)
         node.create_service(Trigger, "~/reset", guard(self._on_reset))
@@ -197,7 +201,7 @@ class Server:
         """Let the parameter tell the speed in force."""
         speed = self._simulator.motion.speed
         if (
-            self._simulator.settings.speed_source == "topic"
+            self._simulator.settings.longitudinal_source != "parameter"
             and self._node.get_parameter("speed").value != speed
         ):
             self._tells_speed = True
@@ -220,7 +224,14 @@ class Server:
             steering_timed_out=steering.timed_out(motion.step),
             manoeuvre="" if settings.manoeuvre == "none" else settings.manoeuvre,
             commands=dict(steering.counts),
-            speeds=dict(commands.speed_input.counts),
+            inputs={
+                name: InputReading(
+                    held.value,
+                    None if (since := held.silence(motion.step)) is None else simulator.grid.seconds(since),
+                    dict(held.counts),
+                )
+                for name, held in commands.held.items()
+            },
             neighbourhood=self._neighbours.look(),
             recorder=recorder.state,
             recorder_detail=recorder.detail,

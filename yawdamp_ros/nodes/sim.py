@@ -12,7 +12,7 @@ from yawdamp_ros.nodes.guard import Guard
 from yawdamp_ros.nodes.outputs import Topics
 from yawdamp_ros.nodes.parameters import declare_derived, declare_parameters
 from yawdamp_ros.nodes.recorder import Recorder
-from yawdamp_ros.nodes.subscriptions import SteeringSubscription, subscribe_speed
+from yawdamp_ros.nodes.subscriptions import InputSubscription, SteeringSubscription
 from yawdamp_ros.runs import default_run_directory, make_run_directory
 from yawdamp_ros.runs.encoder import Encoder
 from yawdamp_ros.runs.recipe import Recipe
@@ -50,9 +50,11 @@ class Simulator:
         declare_derived(node, self.motion.speed, clock=settings.clock)
         self.model = self.motion.linearise()
         self.commands = Commands(settings, self.grid, self.motion)
-        self._subscription: SteeringSubscription | None = None
+        self._subscriptions: list[SteeringSubscription | InputSubscription] = [
+            InputSubscription(node, name, self.commands, self.guard) for name in self.commands.held
+        ]
         if settings.manoeuvre == "none":
-            self._subscription = SteeringSubscription(
+            steering = SteeringSubscription(
                 node,
                 settings.steering_type,
                 settings.steering_joint,
@@ -60,8 +62,7 @@ class Simulator:
                 now=self._now,
                 guard=self.guard,
             )
-        if settings.speed_source == "topic":
-            subscribe_speed(node, self.commands.speed_input, self.guard)
+            self._subscriptions.append(steering)
         # Time stamps and the pace of the samples are counted from one instant.
         self.started_at, start_time = time.monotonic_ns(), time.time_ns()
         self._encoder = encoder = Encoder(self.motion, settings, self.grid, start_time)
@@ -126,8 +127,8 @@ class Simulator:
         """
         if clock is not None and not self.topics.clock:
             self._encoder.follow(clock)
-        if self._subscription is not None:
-            self._subscription.take()
+        for subscription in self._subscriptions:
+            subscription.take()
         self.run.advance()
         self._tell_stop()
 

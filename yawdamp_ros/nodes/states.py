@@ -25,6 +25,13 @@ class SteeringState(StrEnum):
     MANOEUVRE = "manoeuvre"
 
 
+class InputState(StrEnum):
+    """Whether inputs besides the steering have come."""
+
+    NO_COMMAND = "no_command"
+    COMMANDED = "commanded"
+
+
 class RecorderState(StrEnum):
     """State of the recording."""
 
@@ -72,6 +79,7 @@ VERDICT_SENTENCES: Mapping[Verdict, str] = MappingProxyType(
         Verdict.BACKWARDS: "rejected, the model only drives forwards",
         Verdict.NO_JOINT: "rejected, without the joint that steers",
         Verdict.STALE: "rejected, its time stamp is too far from now",
+        Verdict.NOT_SOURCE: "rejected, longitudinal_source names another source",
     }
 )
 

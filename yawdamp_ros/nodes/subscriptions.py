@@ -17,7 +17,7 @@ from yawdamp_ros.runs.encoder import message_class
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.simulation import Commands
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_stamp
-from yawdamp_ros.stepping import SpeedInput, Verdict
+from yawdamp_ros.stepping import Verdict
 from yawdamp_ros.stepping.time_grid import SECOND
 
 WARNING_PERIOD = 5.0
@@ -85,18 +85,10 @@ class SteeringSubscription:
         self._subscription = node.create_subscription(
             steering_class(type_name), "steering", self._receive, QUEUE_DEPTH, event_callbacks=QUIET
         )
-        # As rclpy's executor takes: it has no public call for it. Without, commands wait for the executor.
-        self._can_take = hasattr(self._subscription.handle, "take_message")
 
     def take(self) -> None:
         """Drain pending commands now, so that they act in this sample rather than one period later."""
-        subscription = self._subscription
-        for _ in range(QUEUE_DEPTH if self._can_take else 0):
-            with subscription.handle:
-                taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
-            if taken is None:
-                break
-            self._receive(taken[0])
+        _drain(self._subscription, self._receive)
 
     def _judge(self, message: Any) -> None:  # noqa: ANN401 - of the type asked for
         command = self._angle(message, self._joint)
@@ -120,16 +112,51 @@ class SteeringSubscription:
             self._node.get_logger().warning(f"steering: {text}")
 
 
-def subscribe_speed(node: Node, target: SpeedInput, guard: Guard) -> None:
-    """Hand the speed topic to a `SpeedInput`."""
+class InputSubscription:
+    """Hands one of the inputs besides steering to `Commands`.
 
-    def receive(message: Float64) -> None:
-        verdict = target.offer(message.data)
-        if verdict is not Verdict.ACCEPTED:
-            node.get_logger().warning(
-                f"speed: {message.data}: {VERDICT_SENTENCES[verdict]}, {target.counts[verdict]} so far",
-                throttle_duration_sec=WARNING_PERIOD,
-                throttle_time_source_type=STEADY,
-            )
+    Parameters
+    ----------
+    node : Node
+    name : str
+        One of `Commands.held`, and the topic.
+    target : Commands
+    guard : Guard
+    """
 
-    node.create_subscription(Float64, "speed", guard(receive), QUEUE_DEPTH, event_callbacks=QUIET)
+    def __init__(self, node: Node, name: str, target: Commands, guard: Guard) -> None:
+        self._node, self._name, self._target = node, name, target
+        self._receive = guard(self._judge)
+        self._warned_at: dict[Verdict, float] = {}
+        self._subscription = node.create_subscription(
+            Float64, name, self._receive, QUEUE_DEPTH, event_callbacks=QUIET
+        )
+
+    def take(self) -> None:
+        """See `SteeringSubscription.take`."""
+        _drain(self._subscription, self._receive)
+
+    def _judge(self, message: Float64) -> None:
+        verdict = self._target.demand(self._name, message.data)
+        now = time.monotonic()
+        lately = now - self._warned_at.get(verdict, -WARNING_PERIOD) < WARNING_PERIOD
+        if verdict is Verdict.ACCEPTED or lately:
+            return
+        self._warned_at[verdict] = now
+        count = self._target.held[self._name].counts[verdict]
+        self._node.get_logger().warning(
+            f"{self._name}: {message.data}: {VERDICT_SENTENCES[verdict]}, {count} so far"
+        )
+
+
+def _drain(subscription: Any, receive: Callable[[Any], None]) -> None:  # noqa: ANN401 - rclpy's
+    """Hand over what has arrived."""
+    # As rclpy's executor takes: it has no public call for it. Without, commands wait for the executor.
+    if not hasattr(subscription.handle, "take_message"):
+        return
+    for _ in range(QUEUE_DEPTH):
+        with subscription.handle:
+            taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
+        if taken is None:
+            return
+        receive(taken[0])

@@ -10,7 +10,14 @@ from yawdamp_ros.dynamics.kinematics import FloatArray, IntArray
 from yawdamp_ros.nonlinear.compiled import announce_compilation
 from yawdamp_ros.nonlinear.errors import NonlinearError
 from yawdamp_ros.nonlinear.events import NEVER, Event, event_count, named_events
-from yawdamp_ros.nonlinear.layout import FRICTION_LEFT, FRICTION_RIGHT, SPEED, InputLayout, StateLayout
+from yawdamp_ros.nonlinear.layout import (
+    FRICTION_LEFT,
+    FRICTION_RIGHT,
+    GEAR,
+    SPEED,
+    InputLayout,
+    StateLayout,
+)
 from yawdamp_ros.nonlinear.motion import DIVERGED, ROLLED_OVER, all_outputs, rates, rk4_steps
 from yawdamp_ros.nonlinear.outputs import Outputs, empty_outputs
 from yawdamp_ros.nonlinear.parameters import parameters
@@ -132,7 +139,7 @@ class NonlinearDynamics:
         Returns
         -------
         ndarray
-            By `input_layout`, whose slices hold the demands on single axles and units, 0 here.
+            By `input_layout`, in forward gear; its slices hold the demands on single axles and units, 0 here.
         """
         made = np.zeros(self.input_layout.size)
         own = self.parameters.scalars[NOMINAL_FRICTION] if friction is None else friction
@@ -140,6 +147,7 @@ class NonlinearDynamics:
         made[: SPEED + 1] = steering, acceleration, np.nan if speed is None else speed
         made[FRICTION_LEFT], made[FRICTION_RIGHT] = left, right
         made[FRICTION_RIGHT + 1 : FRICTION_RIGHT + 3] = grade, crossfall
+        made[GEAR] = 1.0
         return made
 
     def initial_state(self, speed: float) -> FloatArray:

@@ -9,9 +9,9 @@ from yawdamp_ros.nonlinear.compiled import compiled
 X, Y, YAW = 0, 1, 2
 """State: position of the lead unit's ground point [m] and yaw [rad]; articulations follow."""
 
-STEERING, ACCELERATION, SPEED, FRICTION_LEFT, FRICTION_RIGHT, GRADE, CROSSFALL = range(7)
+STEERING, ACCELERATION, SPEED, FRICTION_LEFT, FRICTION_RIGHT, GRADE, CROSSFALL, GEAR = range(8)
 """Input: see `InputLayout`."""
-AXLE_STEERING = 7
+AXLE_STEERING = 8
 
 
 @compiled
@@ -134,7 +134,8 @@ class InputLayout:
 
     0 steering, the road-wheel angle [rad]; 1 acceleration of the combination [m/s^2], negative by all brakes;
     2 speed that the controller holds [m/s], NaN for none; 3, 4 friction of the left and the right wheels; 5
-    grade, the road's rise along X; 6 crossfall, its rise along Y; and then the slices below.
+    grade, the road's rise along X; 6 crossfall, its rise along Y; 7 gear, to which a positive acceleration
+    drives: 1 forwards, 0 nowhere, -1 backwards; and then the slices below.
 
     Parameters
     ----------

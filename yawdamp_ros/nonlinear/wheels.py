@@ -8,6 +8,7 @@ from yawdamp_ros.nonlinear.layout import (
     ACCELERATION,
     AXLE_STEERING,
     FRICTION_LEFT,
+    GEAR,
     SPEED,
     STEERING,
     roll_index,
@@ -77,9 +78,9 @@ MOST_BRAKE = 2.0
 
 @compiled
 def driving_force(state: FloatArray, inputs: FloatArray, p: Parameters) -> float:
-    """Force that the driven axles are asked for [N]; negative only from the speed controller."""
+    """Force that the driven axles are asked for [N]; negative in reverse and from the speed controller."""
     unit_table, scalars = p.units, p.scalars
-    demand = max(inputs[ACCELERATION], 0.0)
+    demand = inputs[GEAR] * max(inputs[ACCELERATION], 0.0)
     if not math.isnan(inputs[SPEED]):
         control = scalars[SPEED_GAIN] * (inputs[SPEED] - state[speed_index(unit_table.shape[0])])
         demand += min(max(control, scalars[LOWEST_DEMAND]), scalars[HIGHEST_DEMAND])

@@ -1,16 +1,18 @@
 """Commands on their way to the model: taken or refused, limited, timed out, lagged."""
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from yawdamp_ros.manoeuvres import make_manoeuvre
+from yawdamp_ros.simulation.errors import SimulationError
+from yawdamp_ros.simulation.inputs import LONGITUDINAL, held_inputs
 from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.stepping import (
     AppliedInput,
     Command,
     Motion,
-    SpeedInput,
     SteeringActuator,
     SteeringInput,
     TimeGrid,
@@ -20,9 +22,13 @@ from yawdamp_ros.stepping.time_grid import nanoseconds
 
 ACCEPTED = frozenset({Verdict.ACCEPTED, Verdict.CLAMPED})
 
+Signal = tuple[Sequence[float], Sequence[float]]
+"""Times in s, and values that hold until the next."""
+NO_SIGNALS: Mapping[str, Signal] = MappingProxyType({})
+
 
 class Commands:
-    """The source of a run that is driven: by a manoeuvre, by a log, or by whoever calls `steer`.
+    """The source of a run that is driven: by a manoeuvre, by a log, or by whoever calls `steer` and `demand`.
 
     Parameters
     ----------
@@ -32,18 +38,21 @@ class Commands:
         That they are for.
     log : (sequence of float, sequence of float), optional
         Times in s and commanded angles in rad, each in force until the next.
-    speeds : (sequence of float, sequence of float), optional
-        Times in s and speeds in m/s to be followed, each in force until the next.
+    inputs : mapping of str to (sequence of float, sequence of float), optional
+        The same of other inputs, by name, whatever `longitudinal_source` says.
 
     Attributes
     ----------
     steering_input : SteeringInput
-    speed_input : SpeedInput
+    held : dict of str to HeldInput
+        Inputs besides steering, by the names that the motion takes.
 
     Raises
     ------
     ManoeuvreError
         If the settings' manoeuvre cannot be.
+    SimulationError
+        If the model does not take one of the inputs.
     """
 
     def __init__(
@@ -51,22 +60,32 @@ class Commands:
         settings: SimParameters,
         grid: TimeGrid,
         motion: Motion,
-        log: tuple[Sequence[float], Sequence[float]] | None = None,
-        speeds: tuple[Sequence[float], Sequence[float]] | None = None,
+        log: Signal | None = None,
+        inputs: Mapping[str, Signal] = NO_SIGNALS,
     ) -> None:
         self.steering_input = SteeringInput(ratio=settings.steering_ratio, **_limits(settings, grid))
-        self.speed_input = SpeedInput(motion.speed)
+        self.held = held_inputs(motion)
         self._actuator = SteeringActuator(
             grid.step_size, settings.steering_time_constant, settings.steering_rate_limit
         )
         self._grid = grid
         self._motion = motion
-        self._speed = motion.speed
+        self._applied: dict[str, float | None] = {"speed": motion.speed}
         self._settings = settings
         self._reset = False
         self._received: list[Command] = []
         self._command = self._command_source(settings, log)
-        self._speeds = deque(zip(*speeds, strict=True)) if speeds else deque[tuple[float, float]]()
+        if missing := sorted(inputs.keys() - self.held.keys()):
+            known = ", ".join(self.held)
+            message = f"{missing[0]}: model {settings.model} does not take it; expected one of {known}"
+            raise SimulationError(message)
+        self._ahead = deque(
+            sorted(
+                (time, name, value)
+                for name, signal in inputs.items()
+                for time, value in zip(*signal, strict=True)
+            )
+        )
 
     def steer(self, angle: float, age: float | None = None, message: object = None) -> Verdict:
         """Accept or reject a steering command, which acts from the next step on.
@@ -82,6 +101,20 @@ class Commands:
         """
         return self._offer(angle, self._motion.step, age, message)
 
+    def demand(self, name: str, value: float) -> Verdict:
+        """Accept or reject a value of another input, which acts from the next step on.
+
+        Parameters
+        ----------
+        name : str
+            One of `held`.
+        value : float
+            In SI units.
+        """
+        if name in LONGITUDINAL and name != self._settings.longitudinal_source:
+            return self.held[name].reject(Verdict.NOT_SOURCE)
+        return self.held[name].offer(value, self._motion.step)
+
     def reset(self) -> None:
         """Return to rest at the origin at the next step."""
         self._reset = True
@@ -90,8 +123,11 @@ class Commands:
         """Go by other settings from now on, as far as they can change while running."""
         for name, value in _limits(settings, self._grid).items():
             setattr(self.steering_input, name, value)
+        speed = self.held["speed"]
         if settings.speed is not None and settings.speed != self._settings.speed:
-            self.speed_input.speed = settings.speed
+            speed.value = settings.speed
+        elif settings.longitudinal_source != self._settings.longitudinal_source == "acceleration":
+            speed.value = self._motion.speed  # nothing else demands it
         self._settings = settings
 
     def inputs(self, steps: range) -> Sequence[AppliedInput]:
@@ -100,18 +136,29 @@ class Commands:
         if self._reset:
             self._reset = False
             found.append(AppliedInput(steps[0], "reset", 0.0))
-        found += self._new_speed(steps[0])
-        while self._speeds and self._speeds[0][0] <= self._grid.seconds(steps[-1]):
-            due, speed = self._speeds.popleft()
-            self.speed_input.offer(speed)
-            found += self._new_speed(max(self._step_at(due), steps[0]))
+        found += self._new(steps[0])
+        while self._ahead and self._ahead[0][0] <= self._grid.seconds(steps[-1]):
+            due, name, value = self._ahead.popleft()
+            step = max(self._step_at(due), steps[0])
+            self.held[name].offer(value, step - 1)
+            found += self._new(step)
         return found
 
-    def _new_speed(self, step: int) -> list[AppliedInput]:
-        if self.speed_input.speed == self._speed:
-            return []
-        self._speed = self.speed_input.speed
-        return [AppliedInput(step, "speed", self._speed)]
+    def _new(self, step: int) -> list[AppliedInput]:
+        """Inputs that are other ones than those applied, from a step on."""
+        found = []
+        for name, held in self.held.items():
+            if held.value is not None and held.value != self._applied.get(name):
+                self._applied[name] = held.value
+                found.append(AppliedInput(step, name, held.value))
+                self._end_other(name)
+        return found
+
+    def _end_other(self, name: str) -> None:
+        """Let the newer of speed and acceleration count, and the other one act once it comes again."""
+        for other in LONGITUDINAL:
+            if name in LONGITUDINAL and other != name and other in self.held:
+                self.held[other].value = self._applied[other] = None
 
     def _step_at(self, time: float) -> int:
         """First step at a time in s or after it."""
@@ -136,9 +183,7 @@ class Commands:
             self._received.append(Command(step + 1, angle, message))
         return verdict
 
-    def _command_source(
-        self, settings: SimParameters, log: tuple[Sequence[float], Sequence[float]] | None
-    ) -> Callable[[int], float]:
+    def _command_source(self, settings: SimParameters, log: Signal | None) -> Callable[[int], float]:
         """Road-wheel angle in rad asked for from each step on."""
         steering, seconds = self.steering_input, self._grid.seconds
         if settings.manoeuvre != "none":

@@ -11,7 +11,7 @@ from yawdamp_ros.dynamics import LOWEST_SPEED, LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.nonlinear import Event as NonlinearEvent
 from yawdamp_ros.nonlinear import EventKind, NonlinearDynamics, Outputs
-from yawdamp_ros.nonlinear.layout import ACCELERATION, FRICTION_LEFT, FRICTION_RIGHT, SPEED, STEERING
+from yawdamp_ros.nonlinear.layout import ACCELERATION, FRICTION_LEFT, FRICTION_RIGHT, GEAR, SPEED, STEERING
 from yawdamp_ros.stepping import AppliedInput, Event, Sample
 from yawdamp_ros.vehicle import Vehicle
 
@@ -223,19 +223,26 @@ class NonlinearMotion:
             self._told.pop()
         self._told.append(applied)
 
-    def _input_places(self) -> dict[str, tuple[slice, float]]:
+    def _input_places(self) -> dict[str, tuple[slice | list[int], float]]:
         """Where each input goes in the input vector, and what it is multiplied by."""
         layout = self._dynamics.input_layout
-        places = {
+        places: dict[str, tuple[slice | list[int], float]] = {
             "steering": (slice(STEERING, STEERING + 1), 1.0),
             "speed": (slice(SPEED, SPEED + 1), 1.0),
             "acceleration": (slice(ACCELERATION, ACCELERATION + 1), 1.0),
             "friction": (slice(FRICTION_LEFT, FRICTION_RIGHT + 1), 1.0),
+            "gear": (slice(GEAR, GEAR + 1), 1.0),
         }
+        first = layout.axle_steering.start
         for unit, (name, mass) in enumerate(self._masses.items()):
             brake, moment = layout.brake.start + unit, layout.yaw_moment.start + unit
             places[f"{name}/brake"] = slice(brake, brake + 1), mass
             places[f"{name}/yaw_moment"] = slice(moment, moment + 1), 1.0
+            axles = self.vehicle.units[unit].axles
+            commanded = [first + place for place, axle in enumerate(axles) if axle.commanded]
+            if commanded:
+                places[f"{name}/steering"] = commanded, 1.0
+            first += len(axles)
         return places
 
 

@@ -11,7 +11,7 @@ from yawdamp_ros.dynamics.linear_range import LINEAR_ARTICULATION, LINEAR_LATERA
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.simulation.models import MODELS
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES
-from yawdamp_ros.stepping.speed_input import HIGHEST_SPEED
+from yawdamp_ros.stepping.held_input import FASTEST_REVERSE, HIGHEST_SPEED
 
 UNSET = float("nan")
 """A number that was not given: the manoeuvre's own default counts."""
@@ -73,17 +73,17 @@ class SimParameters:
     model: str = _parameter("consistent", "model of the vehicle", choices=MODELS)
     speed: float | None = _parameter(
         None,
-        "longitudinal speed in m/s",
-        limits=(LOWEST_SPEED, HIGHEST_SPEED),
+        "longitudinal speed in m/s; the nonlinear model reaches it by a controller",
+        limits=(-FASTEST_REVERSE, HIGHEST_SPEED),
         dynamic=True,
         kind=float,
         otherwise="the vehicle's own",
-        constraint="no model can stand still yet",
     )
-    speed_source: str = _parameter(
+    longitudinal_source: str = _parameter(
         "parameter",
-        "whose speed counts: this parameter's, or the topic's from its first message on",
-        choices=("parameter", "topic"),
+        "what drives: the parameter speed, or the topic speed or acceleration from its first message on",
+        choices=("parameter", "speed", "acceleration"),
+        dynamic=True,
     )
     step_size: float = _parameter(0.001, "fixed integration step in s", limits=(1e-6, 1.0))
     publish_rate: float = _parameter(100.0, "samples a second of simulated time, in Hz", limits=(0.1, 1e4))
@@ -204,6 +204,17 @@ class SimParameters:
 
     def problem(self) -> str:
         """What is wrong with these values taken together; empty if nothing is."""
+        if self.model != "nonlinear":
+            if self.speed is not None and self.speed < LOWEST_SPEED:
+                return (
+                    f"speed: {self.speed}: model {self.model} cannot stand or reverse; expected at least "
+                    f"{LOWEST_SPEED} m/s, or model nonlinear; leave it out for the vehicle's own"
+                )
+            if self.longitudinal_source == "acceleration":
+                return (
+                    f"longitudinal_source: acceleration: model {self.model} follows speeds alone; expected "
+                    "model nonlinear"
+                )
         if 0.0 < self.real_time_factor < SLOWEST:
             return f"real_time_factor: {self.real_time_factor}: expected 0, or {SLOWEST} to 100"
         if self.publish_rate * max(self.real_time_factor, 1.0) > FASTEST_RATE:
@@ -235,5 +246,9 @@ PARAMETERS: Mapping[str, Field[Any]] = MappingProxyType(
 
 FORMER_NAMES: Mapping[str, str] = MappingProxyType(
     {declared.name: name for name, declared in PARAMETERS.items() if name != declared.name}
+    | {"speed_source": "longitudinal_source"}
 )
 """Names by former ones, which 0.1 still accepts."""
+
+FORMER_VALUES: Mapping[tuple[str, str], str] = MappingProxyType({("speed_source", "topic"): "speed"})
+"""Values by former names and values."""

@@ -1,11 +1,11 @@
 """Time: one fixed step, the same object for the node and for offline runs."""
 
 from yawdamp_ros.stepping.errors import SteppingError
+from yawdamp_ros.stepping.held_input import HeldInput
 from yawdamp_ros.stepping.motion import Motion
 from yawdamp_ros.stepping.pacer import Pacer
 from yawdamp_ros.stepping.response import Response, linear_response
 from yawdamp_ros.stepping.sample import AppliedInput, Command, Event, Sample
-from yawdamp_ros.stepping.speed_input import SpeedInput
 from yawdamp_ros.stepping.steering_actuator import SteeringActuator
 from yawdamp_ros.stepping.steering_input import SteeringInput
 from yawdamp_ros.stepping.stepper import Stepper
@@ -16,11 +16,11 @@ __all__ = [
     "AppliedInput",
     "Command",
     "Event",
+    "HeldInput",
     "Motion",
     "Pacer",
     "Response",
     "Sample",
-    "SpeedInput",
     "SteeringActuator",
     "SteeringInput",
     "Stepper",

@@ -12,3 +12,4 @@ class Verdict(StrEnum):
     BACKWARDS = "rejected_backwards"
     NO_JOINT = "rejected_no_joint"
     STALE = "rejected_stale"
+    NOT_SOURCE = "rejected_not_source"

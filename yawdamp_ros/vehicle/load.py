@@ -311,7 +311,8 @@ def _build_unit(unit: dict[str, Any], index: int, added: Sequence[Any], source: 
         return Axle(
             from_cg(axle["position"]),
             _number(_stiffness(axle, added[place], f"units.{index}.axles.{place}", source)),
-            steered=axle.get("steered", False),
+            steered=axle.get("steered") is True,
+            commanded=axle.get("steered") == "commanded",
             tyres=axle.get("tyres"),
             static_load=None if load is None else _number(load),
             tyre=_tyre(axle.get("tyre"), source),
@@ -375,7 +376,7 @@ def _tyres_stiffness(axle: dict[str, Any], added: Any, key: str, source: str) ->
 
 def _check_supports(units: Sequence[dict[str, Any]], source: str) -> None:
     """Refuse units that statics finds no two supports for."""
-    steered = [axle.get("steered", False) for axle in units[0]["axles"]]
+    steered = [axle.get("steered") is True for axle in units[0]["axles"]]
     if all(steered):
         raise VehicleError(
             source, "units.0.axles", "every axle is steered: expected another one that shares the loads"
@@ -413,7 +414,7 @@ def _check_combination(data: dict[str, Any], source: str) -> None:
         last = len(names) - 1 - names[::-1].index(name)
         raise VehicleError(source, f"units.{last}.name", f"{name!r}: expected a name not yet taken")
     _check_frames(names, source)
-    if not any(axle.get("steered", False) for axle in units[0]["axles"]):
+    if not any(axle.get("steered") is True for axle in units[0]["axles"]):
         raise VehicleError(
             source, "units.0.axles", "no axle of the lead unit is steered; expected steered: true"
         )

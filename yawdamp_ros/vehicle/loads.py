@@ -114,7 +114,7 @@ def _supports(unit: dict[str, Any], *, towed: bool) -> tuple[list[int], list[int
     everything = list(range(len(unit["axles"])))
     if towed:
         return [], everything
-    steered = [index for index in everything if unit["axles"][index].get("steered", False)]
+    steered = [index for index in everything if unit["axles"][index].get("steered") is True]
     return steered, [index for index in everything if index not in steered]
 
 

@@ -34,6 +34,8 @@ class Axle:
         Of the whole axle, in N/rad, positive.
     steered : bool
         Whether the road-wheel steer angle acts on it.
+    commanded : bool
+        Whether it is steered by a command of its unit's own; only the nonlinear model steers it.
     tyres : int or None
         Number of tyres where the stiffness comes from the load on each (`fancher_stiffness`).
     static_load : float or None
@@ -58,6 +60,7 @@ class Axle:
     position: float
     cornering_stiffness: float
     steered: bool = False
+    commanded: bool = False
     tyres: int | None = None
     static_load: float | None = None
     track_width: float | None = None

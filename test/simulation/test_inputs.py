@@ -1,0 +1,130 @@
+"""Inputs besides steering: each acts, is judged, and repeats bit for bit."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from yawdamp_ros.cli.simulate import main
+from yawdamp_ros.runs.resimulation import Resimulation
+from yawdamp_ros.runs.response_recording import read_response_recording
+from yawdamp_ros.simulation import Commands, Run, SimParameters, SimulationError, make_motion
+from yawdamp_ros.simulation.inputs import INPUTS, held_inputs
+from yawdamp_ros.stepping import Sample, TimeGrid, Verdict
+from yawdamp_ros.vehicle import load_vehicle
+
+GRID = TimeGrid.of(0.001, 0.01)
+COMMANDED = ("units.2.axles.0.steered=commanded", "units.2.axles.1.steered=commanded")
+VEHICLE = load_vehicle("interlink", overrides=COMMANDED)
+
+
+class Last:
+    """Keeps the newest sample."""
+
+    sample: Sample
+
+    def write(self, sample: Sample) -> None:
+        self.sample = sample
+
+    def close(self) -> None:
+        """Nothing is open."""
+
+
+def driven(source: str = "acceleration", speed: float = 15.0) -> tuple[Commands, Run, Last]:
+    settings = SimParameters(model="nonlinear", longitudinal_source=source)
+    motion = make_motion(VEHICLE, "nonlinear", speed, GRID.step_size)
+    commands, last = Commands(settings, GRID, motion), Last()
+    run = Run(motion, GRID, commands, [last])
+    run.start()
+    return commands, run, last
+
+
+def test_every_entry_of_the_table_is_an_input_of_the_nonlinear_model() -> None:
+    taken = set(held_inputs(make_motion(VEHICLE, "nonlinear", None, GRID.step_size)))
+    names = {each.topic.replace("<unit>", "trailer_2") for each in INPUTS}
+    assert names <= taken
+    assert "trailer_1/steering" not in taken  # it has no axle that is commanded
+
+
+@pytest.mark.parametrize(
+    "name, value, sign",
+    [
+        ("trailer_2/yaw_moment", 4e4, 1.0),
+        ("trailer_2/yaw_moment", -4e4, -1.0),
+        ("trailer_2/steering", -0.02, 1.0),
+    ],
+)
+def test_a_trailer_turns_by_its_own_actuators(name: str, value: float, sign: float) -> None:
+    commands, run, last = driven()
+    assert commands.demand(name, value) is Verdict.ACCEPTED
+    run.advance(30)
+    assert sign * last.sample.yaw_rate[2] > 0.004  # rad/s
+    assert np.abs(last.sample.yaw_rate[0]) < 0.003
+
+
+def test_a_unit_s_brake_slows_all_and_friction_limits_it() -> None:
+    reached = []
+    for friction in (0.8, 0.05):
+        commands, run, last = driven()
+        commands.demand("friction", friction)
+        commands.demand("acceleration", 0.0)
+        commands.demand("trailer_2/brake", 3.0)
+        run.advance(100)
+        reached.append(float(last.sample.velocity.real[0]))
+    share = VEHICLE.units[2].mass / sum(unit.mass for unit in VEHICLE.units)
+    assert reached[0] == pytest.approx(15.0 - 3.0 * share - 0.1, abs=0.08)  # air and rolling take the rest
+    assert reached[1] > reached[0] + 0.5
+
+
+def test_of_two_demands_that_one_counts_which_the_source_names() -> None:
+    commands, run, _ = driven("acceleration")
+    assert commands.demand("speed", 3.0) is Verdict.NOT_SOURCE
+    assert commands.demand("acceleration", -20.0) is Verdict.CLAMPED
+    assert commands.demand("friction", float("nan")) is Verdict.NOT_FINITE
+    run.advance(1)
+    assert commands.held["speed"].counts[Verdict.NOT_SOURCE] == 1
+    assert run.motion.speed < 15.0
+
+
+def test_a_linear_model_names_what_it_does_not_take() -> None:
+    motion = make_motion(VEHICLE, "consistent", None, GRID.step_size)
+    with pytest.raises(SimulationError, match="trailer_1/brake: model consistent does not take it"):
+        Commands(SimParameters(), GRID, motion, None, {"trailer_1/brake": ([0.0], [1.0])})
+
+
+@pytest.mark.parametrize("folding", [0.0, 0.02])
+def test_a_log_stops_a_rig_lets_it_stand_and_backs_it(
+    tmp_path: Path, folding: float, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """80 km/h to rest at 3 m/s^2, a minute at rest, 20 m backwards in reverse gear, repeated bit for bit."""
+    log = tmp_path / "drive.csv"
+    rows = [
+        (0.0, 0.0, -3.0, 1.0, 0.8),
+        (40.0, 0.0, -3.0, 1.0, 0.6),
+        (70.0, folding, 0.5, -1.0, 0.8),
+        (76.0, folding, 0.05, -1.0, 0.8),
+        (83.0, folding, -3.0, -1.0, 0.8),
+        (85.0, folding, -3.0, -1.0, 0.8),
+    ]
+    lines = [",".join(map(str, row)) for row in rows]
+    log.write_text("time,steering_angle,acceleration,gear,friction\n" + "\n".join(lines) + "\n")
+    output = tmp_path / "run"
+    options = "--sample-period 0.1 --model nonlinear --longitudinal-source acceleration"
+    assert main(["--log", str(log), *options.split(), "--output", str(output)]) == 0
+    assert "not followed" not in capsys.readouterr().err
+    drive = read_response_recording(output)
+    speed = np.hypot(np.gradient(drive.x[:, 0], drive.time), np.gradient(drive.y[:, 0], drive.time))
+    stopped = drive.time[np.argmax(speed < 0.5)]
+    assert stopped == pytest.approx(21.7222 / 3.0, abs=0.2)
+    at_rest = (drive.time > stopped + 2.5) & (drive.time < 69.9)
+    assert drive.time[at_rest][-1] - drive.time[at_rest][0] > 60.0
+    assert np.ptp(drive.x[at_rest], axis=0).max() < 1e-3
+    assert np.ptp(drive.y[at_rest], axis=0).max() < 1e-3
+    backed = drive.x[at_rest][-1, 0] - drive.x[-1, 0]
+    assert backed > 20.0
+    folded = np.abs(drive.articulation[-1]).max()
+    assert folded > 0.3 if folding else folded < 1e-9
+    again = Resimulation(output)
+    list(again.compare())
+    assert again.bit_identical
+    assert again.agrees

@@ -1,0 +1,83 @@
+"""A commanded number that holds until the next."""
+
+import math
+
+from yawdamp_ros.stepping.verdict import Verdict
+
+LOWEST_FOLLOWED = 1.0
+"""In m/s. A slip angle is a lateral velocity over the speed, which means nothing towards standstill."""
+HIGHEST_SPEED = 70.0
+"""In m/s, as for vehicle files."""
+FASTEST_REVERSE = 5.0
+"""Magnitude in m/s of the speed backwards that a model which can reverse may be asked for."""
+
+
+class HeldInput:
+    """The newest valid value, held; every value is judged and counted.
+
+    Parameters
+    ----------
+    value : float or None
+        Until the first one arrives; None: nothing is demanded.
+    low, high : float
+        What is outside is clamped.
+    backwards : bool
+        Whether a negative value may be; else it is rejected.
+
+    Attributes
+    ----------
+    value : float or None
+        In force.
+    counts : dict of Verdict to int
+        Values offered so far, by verdict.
+
+    Examples
+    --------
+    >>> speed = HeldInput(20.0, 1.0, 70.0, backwards=False)
+    >>> speed.offer(0.5, step=0)
+    <Verdict.CLAMPED: 'clamped'>
+    >>> speed.value
+    1.0
+    """
+
+    def __init__(self, value: float | None, low: float, high: float, *, backwards: bool = True) -> None:
+        self.value = value
+        self.counts = dict.fromkeys(
+            (Verdict.ACCEPTED, Verdict.CLAMPED, Verdict.NOT_FINITE, Verdict.BACKWARDS, Verdict.NOT_SOURCE), 0
+        )
+        self._low, self._high, self._backwards = low, high, backwards
+        self._received_at: int | None = None
+
+    def offer(self, value: float, step: int) -> Verdict:
+        """Accept, clamp or reject a value that arrived after a step, and count which.
+
+        Parameters
+        ----------
+        value : float
+        step : int
+
+        Returns
+        -------
+        Verdict
+        """
+        verdict = self._judge(value)
+        self.counts[verdict] += 1
+        if verdict in {Verdict.ACCEPTED, Verdict.CLAMPED}:
+            self.value, self._received_at = min(max(value, self._low), self._high), step
+        return verdict
+
+    def reject(self, verdict: Verdict) -> Verdict:
+        """Count a value that is not considered."""
+        self.counts[verdict] += 1
+        return verdict
+
+    def silence(self, step: int) -> int | None:
+        """Steps since the last value; None before the first."""
+        return None if self._received_at is None else step - self._received_at
+
+    def _judge(self, value: float) -> Verdict:
+        if not math.isfinite(value):
+            return Verdict.NOT_FINITE
+        if value < 0.0 and not self._backwards:
+            return Verdict.BACKWARDS
+        return Verdict.ACCEPTED if self._low <= value <= self._high else Verdict.CLAMPED
