@@ -117,7 +117,7 @@ def test_text_of_a_scheme_fits_80_columns_and_begins_with_the_verdict(
 ) -> None:
     assert run(["assess", "--vehicle", "a_double", "--scheme", "rtac", "--definitions"]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[1] == "FAILS rtac; decided by high_speed_transient_offtracking"
+    assert lines[1] == "FAILS rtac; decided by load_transfer_ratio, high_speed_transient_offtracking"
     assert "Sources of the limits" in lines
     assert max(map(len, lines[:9])) <= 80
 
@@ -128,8 +128,9 @@ def test_csv_has_a_row_for_each_measure_of_each_vehicle_in_the_units_asked_for(
     vehicles = ["--vehicle", "a_double", "--vehicle", "interlink"]
     assert run(["assess", *vehicles, "--scheme", "rtac", "--format", "csv", "--units", "engineering"]) == 1
     rows = [line.split(",") for line in capsys.readouterr().out.splitlines()]
-    assert [row[0] for row in rows[1:]] == ["a_double"] * 3 + ["interlink"] * 3
+    assert [row[0] for row in rows[1:]] == ["a_double"] * 4 + ["interlink"] * 4
     assert rows[2][rows[0].index("speed")] == "88.0"
+    assert rows[2][rows[0].index("measure")] == "load_transfer_ratio"
 
 
 def test_vehicles_stand_side_by_side(capsys: pytest.CaptureFixture[str]) -> None:

@@ -278,6 +278,8 @@ def _judged(
 
     reached = next((place for place in range(easiest + 1) if met(value, place)), None)
     passed = met(value, chosen)
+    if passed and isinstance(finding.measure, VehicleMeasure) and finding.measure.caveat:
+        passed = reached = None  # A lower bound cannot meet an upper limit.
     judged = replace(finding, limits=limits, reached=reached, passed=passed)
     span = spans.get(finding.measure.name)
     if span is None or {met(reading, chosen) for reading in span} == {passed}:

@@ -86,6 +86,8 @@ class VehicleMeasure:
         That its standard asks for, in m/s; None: the vehicle's own.
     fixed : bool
         Whether the manoeuvre has its own speed, whatever is asked for.
+    caveat : str
+        Why the value is a lower bound, which can fail an upper limit but not meet it; empty where it is not.
     """
 
     name: str
@@ -94,6 +96,7 @@ class VehicleMeasure:
     value_of: Callable[[Vehicle, float], float | None]
     speed: float | None = None
     fixed: bool = False
+    caveat: str = ""
 
     def speed_for(self, vehicle: Vehicle, asked: float | None = None) -> float:
         """Speed at which a vehicle is judged [m/s]: asked for, standard, or own."""
@@ -307,6 +310,40 @@ _OF_VEHICLES = (
         _later("rollover", "rear_static_rollover_threshold"),
         0.0,
         fixed=True,
+    ),
+    VehicleMeasure(
+        "steer_tyre_friction_demand",
+        "%",
+        "largest share of the road's friction that the steered tyres use, by the nonlinear model at 5 km/h "
+        "in the turn of low_speed_swept_path (PBS)",
+        _later("driven", "steer_tyre_friction_demand"),
+        _LOW_SPEED,
+        fixed=True,
+    ),
+    VehicleMeasure(
+        "load_transfer_ratio",
+        "",
+        "largest load of the right wheels less that of the left over both, by the nonlinear model, of units "
+        f"that roll together, steered axles of the lead unit left out (RTAC); {_J2179}",
+        _later("driven", "load_transfer_ratio", at_speed=True),
+        SAE_J2179_SPEED,
+    ),
+    VehicleMeasure(
+        "tracking_ability_on_a_straight_path",
+        "m",
+        "width that the bodies sweep at 90 km/h on a straight road with a crossfall of 3 %, by the nonlinear "
+        "model; without the road's roughness (PBS)",
+        _later("driven", "tracking_ability_on_a_straight_path", at_speed=True),
+        90.0 / 3.6,
+        caveat="the road's roughness is left out: a lower bound",
+    ),
+    VehicleMeasure(
+        "directional_stability_under_braking",
+        "m",
+        "width that the bodies sweep in a stop from 60 km/h by all brakes, friction 0.5 on the left and 0.25 "
+        "on the right, a driver keeping the steered axle on its line; by the nonlinear model (PBS)",
+        _later("driven", "directional_stability_under_braking", at_speed=True),
+        60.0 / 3.6,
     ),
 )
 

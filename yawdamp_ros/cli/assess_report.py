@@ -228,6 +228,8 @@ def _print_notes(findings: Sequence[Finding]) -> None:
     for finding in findings:
         if finding.ambiguity:
             print(f"ambiguous: {finding.ambiguity}")
+        if finding.value is not None and (caveat := getattr(finding.measure, "caveat", "")):
+            print(f"{finding.measure.name}: {caveat}")
     if any(limit is None for finding in findings if finding.value is not None for limit in finding.limits):
         print(
             "--srt G, the static rollover threshold, decides on the level of PBS for rearward amplification"

@@ -30,7 +30,7 @@ from yawdamp_ros.nonlinear.records import (
     Parameters,
 )
 from yawdamp_ros.nonlinear.settings import Settings
-from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle, static_loads
+from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle, complete, static_loads
 
 ROLLS = np.geomspace(1e-5, 0.7, 120)
 """Mean roll angles at which the equilibrium is looked for [rad]."""
@@ -96,9 +96,33 @@ def static_rollover(vehicle: Vehicle) -> tuple[RollGroup, ...]:
         np.array([load for unit in lateral for load in unit.axles]),
         np.array([*(unit.front_hitch for unit in lateral), 0.0]),
     )
-    joints = p.units[:-1, HITCH_ROLL_STIFFNESS] <= 0.0
-    parts = np.split(np.arange(len(vehicle.units)), np.flatnonzero(joints) + 1)
-    return tuple(_threshold(_Group(vehicle, part, p, forces)) for part in parts)
+    return tuple(_threshold(_Group(vehicle, np.array(part), p, forces)) for part in roll_groups(vehicle))
+
+
+def roll_groups(vehicle: Vehicle) -> tuple[tuple[int, ...], ...]:
+    """Find the units that hitches make roll together.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    tuple of tuple of int
+        Indices of the units of each group, foremost first.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> roll_groups(load_vehicle("a_double"))
+    ((0, 1), (2, 3))
+    """
+    groups: list[tuple[int, ...]] = []
+    coupled = False
+    for index, unit in enumerate(complete(vehicle).units):
+        groups.append((*groups.pop(), index) if coupled else (index,))
+        coupled = bool(unit.hitch_roll_stiffness)
+    return tuple(groups)
 
 
 class _Lateral(NamedTuple):

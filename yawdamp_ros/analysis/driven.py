@@ -1,0 +1,261 @@
+"""Measures that the nonlinear model is driven through: tyres slide, wheels lift, brakes lock."""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from yawdamp_ros.analysis.errors import AnalysisError
+from yawdamp_ros.analysis.lane_change import run_lane_change, steer_axle_position
+from yawdamp_ros.analysis.swept_path import along_guide
+from yawdamp_ros.analysis.tractrix import low_speed_turn
+from yawdamp_ros.dynamics import linear_model
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.nonlinear import NonlinearDynamics, NonlinearError, Outputs, Settings, steady_turn
+from yawdamp_ros.nonlinear.layout import STEERING
+from yawdamp_ros.nonlinear.static_roll import roll_groups
+from yawdamp_ros.vehicle import Vehicle, complete
+from yawdamp_ros.vehicle.shape import extent
+
+STEP = 0.001
+"""Of the motion in s."""
+EVERY = 20
+"""Steps between looks at the road and samples."""
+APPROACH = 3.0
+"""Straight way before a turn [m]."""
+GAIN = 0.5
+"""Direction that a driver aims at by the distance from the path [rad/m]."""
+CROSSFALL = 0.03
+"""Of the straight road of PBS's tracking ability, without its roughness."""
+SPLIT_FRICTION = (0.5, 0.25)
+"""Left and right: at least 0.5, and twice the other (UN R13, annex 13)."""
+HARD_BRAKING = 5.0
+"""Deceleration demanded, the service brake's of UN R13 [m/s^2]."""
+LONGEST_STOP = 30.0
+"""In s."""
+WALKING = 1.0
+"""Speed at which a stop counts as done [m/s]."""
+
+
+class Run(NamedTuple):
+    """Samples of a driven run.
+
+    Attributes
+    ----------
+    inputs : ndarray, shape (m, k)
+    outputs : Outputs
+    """
+
+    inputs: FloatArray
+    outputs: Outputs
+
+
+def steer_tyre_friction_demand(vehicle: Vehicle) -> float:
+    """Largest share of the road's friction that the steered tyres use in the low-speed turn [%].
+
+    A driver leads the outer front tyre along the path of `low_speed_turn` at 5 km/h; axles that do not steer
+    resist the turn by the slip of their tyres. The wheels of an axle stand in its middle: both steered wheels
+    have one angle in the model and would push against each other. Slip does not lag: what damps a carcass at
+    rest would add to it at this speed.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    AnalysisError
+        If the vehicle cannot turn so.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> 0.0 < steer_tyre_friction_demand(load_vehicle("single_vehicle")) < 100.0
+    True
+    """
+    turn, speed = low_speed_turn(vehicle), 5.0 / 3.6
+    dynamics = NonlinearDynamics(
+        vehicle, Settings(track=False, roll=False, load_shift=False, relaxation=False)
+    )
+    lead, place = turn.geometry[0], steer_axle_position(vehicle)
+    arm = complex(place, -lead.guide)
+
+    def steering(position: complex, yaw: float) -> float:
+        point = position + arm * complex(math.cos(yaw), math.sin(yaw))
+        way, inwards = along_guide(turn, np.array([point.real]), np.array([point.imag]))
+        turned = min(max(float(way[0]) / turn.radius, 0.0), turn.angle)
+        aim = turned - math.atan(GAIN * float(inwards[0])) - yaw
+        rate = math.sin(aim) / lead.leader
+        return math.atan2(lead.leader * rate, math.cos(aim) - lead.guide * rate)
+
+    state = dynamics.initial_state(speed)
+    state[0], state[1] = -APPROACH - place, lead.guide
+    length = APPROACH + turn.radius * turn.angle + sum(unit.leader for unit in turn.geometry)
+    run = _driven(dynamics, state, dynamics.inputs(speed=speed), steering, length / speed)
+    steered = [
+        wheel
+        for number, axle in enumerate(vehicle.units[0].axles)
+        if axle.steered
+        for wheel in (2 * number, 2 * number + 1)
+    ]
+    out = run.outputs
+    force = np.hypot(out.longitudinal_force[:, steered], out.lateral_force[:, steered]).sum(axis=1)
+    load = out.wheel_load[:, steered].sum(axis=1)
+    return float(100.0 * (force / load).max() / (complete(vehicle).friction or 1.0))
+
+
+def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
+    """Largest load transfer ratio in the lane change of SAE J2179.
+
+    Loads of the right wheels less those of the left, over both, of the units that roll together; the steered
+    axles of the lead unit do not count (RTAC, read in secondary sources). The steering is that which the path
+    takes of the linear model.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    speed : float
+        In m/s.
+
+    Returns
+    -------
+    float
+        1 where all wheels of one side lift.
+
+    Raises
+    ------
+    AnalysisError
+        If no steering leads the linear model through the lane change.
+    """
+    planned = run_lane_change(linear_model(vehicle, speed))
+    dynamics = NonlinearDynamics(vehicle)
+    count = EVERY * int(float(planned.time[-1]) / STEP / EVERY)
+    rows = np.tile(dynamics.inputs(speed=speed), (count, 1))
+    rows[:, STEERING] = np.interp(STEP * np.arange(count), planned.time, planned.steering_angle)
+    steps = dynamics.steps(dynamics.initial_state(speed), rows, STEP, every=EVERY)
+    if steps.rolled_over:
+        return 1.0
+    loads = dynamics.outputs(steps.states, rows[EVERY - 1 :: EVERY]).wheel_load
+    left, right = loads[:, 0::2], loads[:, 1::2]
+    units = [unit for unit in range(len(vehicle.units)) for _ in vehicle.units[unit].axles]
+    steered = [axle.steered for unit in vehicle.units for axle in unit.axles]
+    ratios = []
+    for group in roll_groups(vehicle):
+        own = [
+            number
+            for number, unit in enumerate(units)
+            if unit in group and not (steered[number] and unit == 0)
+        ]
+        if own:
+            moved = np.abs((right - left)[:, own].sum(axis=1))
+            ratios.append(float((moved / (left + right)[:, own].sum(axis=1)).max()))
+    return max(ratios)
+
+
+def tracking_ability_on_a_straight_path(vehicle: Vehicle, speed: float) -> float:
+    """Width that the bodies sweep on a straight road with a crossfall of 3 % [m].
+
+    The road's roughness, which PBS has besides, is left out: the value is a lower bound.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    speed : float
+        In m/s.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    AnalysisError
+        If there is no steady motion at that speed.
+    """
+    dynamics = NonlinearDynamics(vehicle)
+    try:
+        inputs = dynamics.inputs(crossfall=CROSSFALL)
+        found = steady_turn(dynamics, speed, inputs, lateral_acceleration=0.0).outputs
+    except NonlinearError as error:
+        raise AnalysisError(str(error)) from error
+    sideways, forward = found.velocity[0, 0, 1], found.velocity[0, 0, 0]
+    low, high = _swept(vehicle, found, -math.atan2(sideways, forward))
+    return float(high[0] - low[0])
+
+
+def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float:
+    """Width that the bodies sweep in a stop on a road whose sides differ in friction [m].
+
+    A driver keeps the steered axle on a straight line while all brakes are asked for 5 m/s^2; friction is 0.5
+    on the left and 0.25 on the right.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    speed : float
+        At which braking begins, in m/s.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    AnalysisError
+        If the vehicle rolls over or folds up.
+    """
+    dynamics = NonlinearDynamics(vehicle)
+    place = steer_axle_position(vehicle)
+
+    def steering(position: complex, yaw: float) -> float:
+        aside = position.imag + place * math.sin(yaw)
+        return -yaw - math.atan(GAIN * aside)
+
+    inputs = dynamics.inputs(acceleration=-HARD_BRAKING, friction=SPLIT_FRICTION)
+    run = _driven(dynamics, dynamics.initial_state(speed), inputs, steering, LONGEST_STOP, WALKING)
+    low, high = _swept(vehicle, run.outputs, 0.0)
+    return float(high.max() - low.min())
+
+
+def _driven(  # noqa: PLR0913, PLR0917 - the whole of one run
+    dynamics: NonlinearDynamics,
+    state: FloatArray,
+    inputs: FloatArray,
+    steering: Callable[[complex, float], float],
+    duration: float,
+    slowest: float = -1.0,
+) -> Run:
+    """Drive for a time, or until the speed is low, steering by position and yaw of the lead unit."""
+    row = inputs.copy()
+    states: list[FloatArray] = []
+    rows: list[FloatArray] = []
+    while len(states) * EVERY * STEP < duration and state[dynamics.layout.velocity.start] > slowest:
+        row[STEERING] = steering(complex(state[0], state[1]), float(state[2]))
+        taken = dynamics.steps(state, row, STEP, EVERY, EVERY)
+        if taken.rolled_over:
+            message = f"{dynamics.vehicle.name}: {taken.rolled_over} rolls over"
+            raise AnalysisError(message)
+        state = taken.states[-1]
+        states.append(state)
+        rows.append(row.copy())
+    return Run(np.array(rows), dynamics.outputs(np.array(states), np.array(rows)))
+
+
+def _swept(vehicle: Vehicle, found: Outputs, direction: float) -> tuple[FloatArray, FloatArray]:
+    """Least and most of all corners of all bodies across a direction, at every sample [m]."""
+    across = []
+    for index, unit in enumerate(complete(vehicle).units):
+        tail, nose = extent(unit)
+        ends = nose + (unit.front_overhang or 0.0), tail - (unit.rear_overhang or 0.0)
+        centre = found.position[:, index, 0] + 1j * found.position[:, index, 1]
+        for end in ends:
+            for side in (-0.5, 0.5):
+                corner = complex(end, side * (unit.width or 0.0))
+                point = centre + corner * np.exp(1j * found.yaw[:, index])
+                across.append((point * np.exp(1j * direction)).imag)
+    return np.min(across, axis=0), np.max(across, axis=0)
