@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from faults.hostile import accepted_or_refused, checked, damaged, refusal
+from yawdamp_ros.cli import run
 from yawdamp_ros.logs import SteeringLog, read_steering_csv
 
 pytestmark = pytest.mark.timeout(60)
@@ -213,3 +214,31 @@ def test_the_command_itself_refuses_in_one_line(file: Path, out: str) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     checked(done.stderr, str(file))
+
+
+def test_of_a_log_without_end_only_what_is_asked_for_is_read(file: Path, out: str) -> None:
+    rows = (f"{0.01 * row:.2f},0.01\n" for row in range(20_000))
+    file.write_text("time,steering_angle\n" + "".join(rows))
+    os.truncate(file, 1 << 36)  # 64 GiB more, which no disk holds
+    assert run(["simulate", "--log", str(file), "--duration", "1", "--output", out]) == 0
+    assert len(Path(out).read_text().splitlines()) == 1002
+
+
+def test_memory_that_does_not_suffice_is_said_in_one_line(file: Path) -> None:
+    rows = (f"{0.01 * row:.2f},0.01,0.1\n" for row in range(200_000))
+    file.write_text("time,steering_angle,truck/yaw_rate\n" + "".join(rows))
+    program = """
+import resource, sys
+import yawdamp_ros.drives, yawdamp_ros.logs.drive_csv
+from yawdamp_ros.cli import run
+
+run(["compare", sys.argv[1], "--duration", "20"])
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + (8 << 20), used + (8 << 20)))
+sys.exit(run(["compare", sys.argv[1]]))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(file)], capture_output=True, text=True, check=False, timeout=50
+    )
+    assert (done.returncode, done.stderr.splitlines()[-1]) == (2, "yawdamp compare: out of memory")
+    assert "Traceback" not in done.stderr

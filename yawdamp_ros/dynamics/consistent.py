@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray, cg_rows
+from yawdamp_ros.dynamics.solving import solve
 from yawdamp_ros.vehicle import Vehicle
 
 
@@ -99,14 +100,14 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
         # psi_k = psi_1 - (theta_1 + .. + theta_(k-1)): a joint turns every unit behind it.
         forces[..., rates + joint] = -motion.stiffness[..., joint + 2 :].sum(axis=-1)
     state_matrix = np.zeros((*stack, 2 * count, 2 * count))
-    state_matrix[..., :rates, :] = np.linalg.solve(motion.mass, forces)
+    state_matrix[..., :rates, :] = solve(motion.mass, forces)
     joints = np.arange(count - 1)
     state_matrix[..., rates + joints, 1 + joints] = 1.0
     state_matrix[..., rates + joints, 2 + joints] = -1.0
     input_matrix = np.zeros((*stack, 2 * count))
     # NumPy 1 takes a single right-hand side of stacked systems for vectors.
     steering = np.broadcast_to(motion.steering, (*stack, rates))
-    input_matrix[..., :rates] = np.linalg.solve(motion.mass, steering[..., np.newaxis])[..., 0]
+    input_matrix[..., :rates] = solve(motion.mass, steering[..., np.newaxis])[..., 0]
     return state_matrix, input_matrix
 
 

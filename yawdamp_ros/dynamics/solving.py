@@ -1,0 +1,39 @@
+"""Systems of linear equations whose solution does not depend on how many threads there are."""
+
+import numpy as np
+
+from yawdamp_ros.dynamics.kinematics import FloatArray
+
+LARGEST_SYSTEM = 11
+"""Equations that LAPACK solves in one thread; OpenBLAS 0.3.23 splits larger ones, which changes bits."""
+
+
+def solve(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """Solve systems of linear equations with positive definite matrices.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (..., n, n)
+        Symmetric and positive definite, as mass matrices are: elimination needs no pivoting.
+    right : ndarray, shape (..., n, k)
+
+    Returns
+    -------
+    ndarray, shape (..., n, k)
+
+    Examples
+    --------
+    >>> solve(np.array([[2.0, 0.0], [0.0, 4.0]]), np.array([[1.0], [1.0]])).tolist()
+    [[0.5], [0.25]]
+    """
+    size = matrix.shape[-1]
+    if size <= LARGEST_SYSTEM:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    stack = np.broadcast_shapes(matrix.shape[:-2], right.shape[:-2])
+    both = (np.broadcast_to(part, (*stack, *part.shape[-2:])) for part in (matrix, right))
+    rows = np.concatenate(list(both), axis=-1)
+    for place in range(size):
+        pivot = rows[..., place, :] / rows[..., place, place, np.newaxis]
+        rows -= rows[..., :, place, np.newaxis] * pivot[..., np.newaxis, :]
+        rows[..., place, :] = pivot
+    return rows[..., size:]
