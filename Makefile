@@ -11,7 +11,7 @@ NOBLE_EXTRAS := analysis bags cluster colcon fast pandas pictures ros test
 NOBLE_PYTHON = $(shell for python in python3.12 $(HOME)/.pyenv/versions/3.12*/bin/python3.12 $(PYTHON); do \
   "$$python" -c "" 2>/dev/null && echo "$$python" && break; done)
 
-.PHONY: help setup sim test test-noble test-fast soak bench bench-memory lint docs reproduction parameters lock clean
+.PHONY: help setup sim test test-noble test-fast soak bench bench-memory lint docs pages moving-picture reproduction parameters lock clean
 
 help:  ## say what the targets do
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -43,7 +43,7 @@ test-fast: setup  ## run the tests that need no ROS graph
 soak: setup  ## run the long tests, about half an hour; each says what it saw
 	@$(BIN)/python -m pytest test/soak
 
-bench: setup  ## measure the ratios of the README's performance section, about a quarter of an hour on an idle machine
+bench: setup  ## measure the ratios of the manual's performance page, about a quarter of an hour on an idle machine
 	@$(BIN)/python bench/run.py
 
 bench-memory: setup  ## measure the node's memory over ten minutes at 1 kHz
@@ -53,17 +53,23 @@ lint: setup  ## ruff, mypy and the layering
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
-	@MYPYPATH=docs $(BIN)/mypy --explicit-package-bases docs/reproduce.py docs/reproduction docs/parameter_table.py docs/reference_pages.py
+	@MYPYPATH=docs $(BIN)/mypy --explicit-package-bases docs/reproduce.py docs/reproduction docs/parameter_table.py docs/reference_pages.py docs/pages.py docs/moving_picture.py
 	@$(BIN)/lint-imports --no-cache
 
 docs: setup  ## build the manual into docs/_build/html; a warning is an error
 	@$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
 	@echo "docs/_build/html/index.html"
 
+pages: setup  ## execute the pages of the manual and renew the outputs that they show
+	@$(BIN)/python docs/pages.py
+
+moving-picture: setup  ## write docs/jackknife.gif
+	@$(BIN)/python docs/moving_picture.py
+
 reproduction: setup  ## write docs/report_reproduction.md and the pictures of docs/ from the code
 	@$(BIN)/python docs/reproduce.py
 
-parameters: setup  ## write the node's parameters into the README and config/sim.yaml
+parameters: setup  ## write the node's parameters into config/sim.yaml
 	@$(BIN)/python docs/parameter_table.py
 
 lock: setup  ## renew requirements.lock and requirements-noble.lock

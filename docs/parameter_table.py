@@ -1,4 +1,4 @@
-"""Write parameters, inputs and outputs, into the README and config/sim.yaml: `make parameters`."""
+"""Parameters, inputs and outputs as tables of the manual; `make parameters` writes config/sim.yaml."""
 
 import math
 import sys
@@ -13,8 +13,14 @@ from yawdamp_ros.vehicle import load_vehicle
 
 ROOT = Path(__file__).parents[1]
 HEAD = "| parameter | default | |\n|---|---|---|\n"
-INPUT_HEAD = "| in | type | |\n|---|---|---|\n"
-OUTPUT_HEAD = "| out | type | |\n|---|---|---|\n"
+INPUT_HEAD = "| topic | type | meaning |\n|---|---|---|\n"
+OUTPUT_HEAD = "| topic | type | meaning |\n|---|---|---|\n"
+OTHER_TOPICS = """\
+| `/diagnostics` | diagnostic_msgs/DiagnosticArray | once a second: timing, steering, recorder, model |
+| `/clock` | rosgraph_msgs/Clock | simulated time, if `real_time_factor` is not 1 or `publish_clock` is true |
+| `markers` | visualization_msgs/MarkerArray | the units as boxes, if `publish_markers` is true |
+| `/tf` | tf2_msgs/TFMessage | `odom`, the units and their hitches, if tf2_msgs is installed |
+"""
 FILE_HEAD = """\
 # Parameters of the simulator node, with their defaults:
 #   ros2 run yawdamp_ros sim --ros-args --params-file sim.yaml
@@ -24,21 +30,8 @@ FILE_HEAD = """\
 """
 
 
-def readme(text: str) -> str:
-    """README with its tables of parameters, inputs and outputs renewed."""
-    before, _, rest = text.partition(HEAD)
-    after = rest.partition("\n\n")[2]
-    text = f"{before}{table()}\n\n{after}"
-    before, _, rest = text.partition(INPUT_HEAD)
-    after = rest.partition("\n\n")[2]
-    text = f"{before}{input_table()}\n{after}"
-    before, _, rest = text.partition(OUTPUT_HEAD)
-    after = rest.partition("| `/diagnostics` |")[2]
-    return f"{before}{output_table()}| `/diagnostics` |{after}"
-
-
 def input_table() -> str:
-    """Table of what acts on a run in Markdown; a line each."""
+    """Table of the topics that the node subscribes to, in Markdown."""
     kinds = ", ".join(kind.replace("/msg/", "/") for kind in STEERING_TYPES)
     angle = "road-wheel steer angle, left positive, divided by `steering_ratio`, rad"
     rows = [f"| `steering` | by `steering_type`: {kinds} | {angle} |\n"]
@@ -52,7 +45,7 @@ def input_table() -> str:
 
 
 def output_table() -> str:
-    """Table of the outputs of a sample in Markdown; a line each."""
+    """Table of the topics that the node publishes, in Markdown."""
     rows = []
     for output in OUTPUTS:
         if output.type_name:
@@ -60,7 +53,7 @@ def output_table() -> str:
             described = ", ".join(filter(None, [output.description, output.unit.replace("^2", "²")]))
             kind = output.type_name.replace("/msg/", "/")
             rows.append(f"| `{names[output.of].format(output.name)}` | {kind} | {described} |\n")
-    return OUTPUT_HEAD + "".join(rows)
+    return OUTPUT_HEAD + "".join(rows) + OTHER_TOPICS
 
 
 def table() -> str:
@@ -88,9 +81,7 @@ def parameter_file() -> str:
 
 
 def main() -> int:
-    """Write both."""
-    path = ROOT / "README.md"
-    path.write_text(readme(path.read_text(encoding="utf-8")), encoding="utf-8")
+    """Write config/sim.yaml."""
     (ROOT / "config" / "sim.yaml").write_text(parameter_file(), encoding="utf-8")
     return 0
 

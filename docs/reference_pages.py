@@ -1,31 +1,49 @@
-"""Pages of the manual's reference that are made from the code: commands, node, vehicle files, library."""
+"""Pages and tables of the manual's reference that are made from the code and from measurements."""
 
 import inspect
 import json
 import os
+import statistics
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from ruamel.yaml import YAML
+
 import parameter_table
 from yawdamp_ros.cli.dispatch import COMMANDS
 from yawdamp_ros.share import share_directory
+from yawdamp_ros.vehicle import builtin_vehicles, load_vehicle, vehicle_text
 
-ROOMS = ("vehicle", "dynamics", "nonlinear", "stepping", "manoeuvres", "analysis", "logs")
+ROOMS = (
+    *("vehicle", "dynamics", "nonlinear", "stepping", "manoeuvres", "simulation"),
+    *("analysis", "drives", "logs", "runs", "pictures", "library"),
+)
 """Rooms of the library that the reference describes, from the vehicle file upwards."""
 
 
 def write(directory: Path) -> None:
-    """Write every page; a page that is already the same keeps its time, so that a build is incremental."""
+    """Write every page; a page that is already the same keeps its time, so that a build is incremental.
+
+    Pages of names that are no longer exported are removed.
+    """
+    exported = {f"yawdamp_ros.{room}.{name}.rst" for room in ROOMS for name in _public(room)}
+    for path in (directory / "library").glob("*.rst"):
+        if path.name not in exported:
+            path.unlink()
     pages = {
         "commands.md": _commands(),
         "parameters.md": _parameters(),
-        "topics.md": _topics(),
         "vehicle_file.md": _vehicle_file(),
         "library.md": _library(),
+        "vehicles.md": _vehicles(),
+        "inputs.inc": parameter_table.input_table(),
+        "outputs.inc": parameter_table.output_table(),
+        "performance.inc": _performance(directory.parents[1] / "bench"),
     }
     for name, text in pages.items():
         path = directory / name
@@ -34,19 +52,29 @@ def write(directory: Path) -> None:
 
 
 def _commands() -> str:
+    overview = "".join(f"| [`{name}`](#{name}) | {summary} |\n" for name, summary in COMMANDS.items())
     sections = "".join(
-        f"\n## {name}\n\n{summary[0].upper()}{summary[1:]}.\n\n```text\n{_help(name)}```\n"
+        f"\n## {name}\n\n{summary[0].upper()}{summary[1:]}.\n\n```text\n{help_of(name)}```\n"
         for name, summary in COMMANDS.items()
     )
     return (
         "# Commands\n\n"
+        "A command is `yawdamp NAME`, `python -m yawdamp_ros NAME`, or, with ROS, "
+        "`ros2 run yawdamp_ros NAME`. `make setup` puts `yawdamp` into `.venv/bin`; "
+        "`pip install '.[ros,pictures]'` installs it into an environment of your own. Pictures and "
+        "clusters need libraries that `rosdep` does not install; the commands say which.\n\n"
         "Every command has `--help`. Wrong use is one line on stderr and exit status 2; a negative answer "
-        "(an unstable vehicle, a level that is missed, a run that does not repeat) is exit status 1.\n"
+        "(an unstable vehicle, a level that is missed, a run that does not repeat) is exit status 1. "
+        "Commands that look at a vehicle take `--vehicle` (a builtin name or a file), `--speed`, `--model` "
+        "and `--set units.1.mass=4156`.\n\n"
+        f"| command | |\n|---|---|\n{overview}"
         f"{sections}"
     )
 
 
-def _help(name: str) -> str:
+@cache
+def help_of(name: str) -> str:
+    """Help of a command as a terminal of 80 columns shows it."""
     done = subprocess.run(  # noqa: S603 - the project's own commands
         [sys.executable, "-m", "yawdamp_ros", name, "--help"],
         env={**os.environ, "COLUMNS": "80", "NO_COLOR": "1"},
@@ -63,17 +91,6 @@ def _parameters() -> str:
         "Set a parameter with `--ros-args -p NAME:=VALUE`, with `--params-file`, or, where the table says "
         "*while running*, with `ros2 param set`. Write a number as it is declared: `100.0`, not `100`.\n\n"
         f"{parameter_table.table()}\n"
-    )
-
-
-def _topics() -> str:
-    return (
-        "# Topics of the node\n\n"
-        "The newest command wins and is held. What is no number is rejected, what is out of range clamped; "
-        "each is counted in `/diagnostics` (`inputs`) and logged. Every input is recorded as it was applied, "
-        "so that `resimulate` repeats the run.\n\n"
-        f"{parameter_table.input_table()}\n"
-        f"{parameter_table.output_table()}\n"
     )
 
 
@@ -110,6 +127,35 @@ def _described(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
             found = found[name]
         part = found
     return str(part.get("description", "")).replace("|", "\\|")
+
+
+def _vehicles() -> str:
+    rows = []
+    for name in builtin_vehicles():
+        vehicle, text = load_vehicle(name), YAML(typ="safe", pure=True).load(vehicle_text(name))
+        mass = sum(unit.mass for unit in vehicle.units) / 1000.0
+        rows.append(
+            f"| `{name}` | {len(vehicle.units)} | {mass:.1f} | {' '.join(text['description'].split())} |\n"
+        )
+    return (
+        "# Builtin vehicles\n\n"
+        "`--vehicle NAME` takes one of these, or the path of a [vehicle file](vehicle_file.md). "
+        "`yawdamp show NAME` lists its numbers.\n\n"
+        f"| name | units | mass [t] | source |\n|---|---|---|---|\n{''.join(rows)}"
+    )
+
+
+def _performance(directory: Path) -> str:
+    rows = []
+    for name in ("results.json", "results_memory.json"):
+        measured = json.loads((directory / name).read_text(encoding="utf-8"))
+        for row in measured["rows"]:
+            value, reference = statistics.median(row["value"]), statistics.median(row["reference"])
+            unit = f" {row['unit']}" if row["unit"] else ""
+            figures = f"{value:.3g}{unit} | {row['against']} | {reference:.3g}{unit} | {row['ratio']:.3g}"
+            rows.append(f"| {row['what']} | {figures} |\n")
+    head = "| what | median | against | median | ratio |\n|---|---|---|---|---|\n"
+    return f"Measured on {measured['machine']}.\n\n{head}{''.join(rows)}"
 
 
 def _library() -> str:

@@ -20,8 +20,10 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The manual, built from a copy of its sources, so that the checkout stays as it is."""
     root = tmp_path_factory.mktemp("manual")
     ignored = shutil.ignore_patterns("_build", "auto_gallery", "__pycache__")
-    for name in ("docs", "config", "examples"):
+    for name in ("bench", "config", "docs", "examples"):
         shutil.copytree(ROOT / name, root / name, ignore=ignored)
+    for name in ("CHANGELOG.md", "QUALITY_DECLARATION.md"):
+        shutil.copy(ROOT / name, root / name)
     built = root / "html"
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html"]
     done = subprocess.run(
@@ -38,7 +40,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.timeout(400)
 def test_every_part_is_there(site: Path) -> None:
-    for part in ("tutorials", "reference", "explanation", "auto_gallery"):
+    for part in ("tutorials", "how_to", "reference", "explanation", "auto_gallery"):
         assert (site / part / "index.html").is_file(), part
 
 

@@ -1,6 +1,6 @@
 """Everything that comes out of a run, in one table.
 
-Topics, channels of recordings, columns of CSV files, curves of pictures and the table in the README follow
+Topics, channels of recordings, columns of CSV files, curves of pictures and the table in the manual follow
 from it. No ROS is needed to read it.
 """
 

@@ -1,6 +1,6 @@
 """Everything that acts on a run besides steering, in one table.
 
-Topics, channels of logs, what is clamped, what diagnostics tell and the table in the README follow from it;
+Topics, channels of logs, what is clamped, what diagnostics tell and the table in the manual follow from it;
 which of them a model takes, its `input_names` say.
 """
 

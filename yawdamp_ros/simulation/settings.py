@@ -1,4 +1,4 @@
-"""Parameters of the simulator node: one record for the node, its help, the README and config/sim.yaml."""
+"""Parameters of the simulator node: one record for the node, its help, the manual and config/sim.yaml."""
 
 import math
 from collections.abc import Iterable, Mapping
