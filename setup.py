@@ -56,6 +56,7 @@ setup(
         "analysis": ["control>=0.10.2"],  # root locus, Bode and Nyquist by the field's own library
         "bags": ["rosbags"],  # reads rosbag2 recordings with sqlite3 storage
         "cluster": ["distributed>=2026.8.0"],  # sweeps on other machines
+        "tables": ["openpyxl>=3.1.2"],  # assessments as spreadsheets
         "pandas": ["pandas>=2.1.4"],  # runs as tables
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from pathlib import Path
 
 import pytest
 
@@ -133,6 +134,19 @@ def test_csv_has_a_row_for_each_measure_of_each_vehicle_in_the_units_asked_for(
     assert rows[2][rows[0].index("measure")] == "load_transfer_ratio"
 
 
+@pytest.mark.filterwarnings("ignore:datetime.datetime.utcnow")  # openpyxl before 3.1.4
+def test_spreadsheet_holds_the_rows_of_the_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    path = tmp_path / "table.xlsx"
+    assert run(["assess", "--scheme", "rtac", "--format", "csv", "--xlsx", str(path)]) == 0
+    written = [line.split(",") for line in capsys.readouterr().out.splitlines()]
+    held = [list(row) for row in openpyxl.load_workbook(path).active.values]
+    assert held[0] == written[0]
+    for row, line in zip(held[1:], written[1:], strict=True):
+        assert row[:3] == line[:3]
+        assert row[3] == pytest.approx(float(line[3]))
+
+
 def test_vehicles_stand_side_by_side(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["assess", "--vehicle", "a_double", "--vehicle", "interlink", "--scheme", "rtac"]) == 1
     text = capsys.readouterr().out
@@ -144,6 +158,7 @@ def test_vehicles_stand_side_by_side(capsys: pytest.CaptureFixture[str]) -> None
     "arguments, said",
     [
         (["--scheme", "pbs", "--level", "5"], "level: 5: pbs: expected one of 1, 2, 3, 4"),
+        (["--xlsx", "table.csv"], "--xlsx: table.csv: expected a name ending in .xlsx"),
         (["--scheme", "nowhere.yaml"], "nowhere.yaml: no such scheme; expected a file or one of"),
         (["--srt", "-1"], "srt: -1.0: expected a static rollover threshold in g"),
         (["--srt", "high"], "argument --srt: invalid float value"),

@@ -16,7 +16,7 @@ import pytest
 
 from browser import CHROMIUM, QUIET, needs_browser
 from yawdamp_ros import load_vehicle
-from yawdamp_ros.analysis import MEASURES, assess
+from yawdamp_ros.analysis import MEASURES, Assessment, assess, load_scheme
 from yawdamp_ros.cli import run
 from yawdamp_ros.pictures.assessment_page import assessment_page
 from yawdamp_ros.vehicle import builtin_vehicles
@@ -48,6 +48,10 @@ frame.addEventListener("load", () => {{
       modes: box("#modes figure").length,
       lines: box("figure polyline").filter((each) => each.getBoundingClientRect().width > 100).length,
       definitions: box("#definitions dt").length,
+      heading: page().getElementById("heading").textContent,
+      turns: box("#turns svg").length,
+      drawings: box("#vehicles svg").length,
+      tables: box(".scroll").map((each) => each.previousSibling.textContent),
     }}) }});
   }});
 }});
@@ -130,17 +134,72 @@ def test_page_fits_and_shows_everything(
     assert shown["definitions"] == len(MEASURES)
     assert shown["lane_change"]
     assert shown["moved"], "the animation stands still"
-    # Four units in the plan; four curves twice, two paths, the steer angle, decay, amplification; two tracks.
+    # Four units in the plan; four curves twice, two paths, the steer angle, decay, amplification; two tracks;
+    # three paths in the low-speed turn.
     assert shown["units"] == 4
-    assert shown["lines"] == 4 + 4 + 2 + 1 + 1 + 1 + 2
+    assert shown["lines"] == 4 + 4 + 2 + 1 + 1 + 1 + 2 + 3
     assert shown["modes"] == 5
     assert served.asked == {"/frame.html", "/page.html", "/told"}
 
 
 @needs_browser
+@pytest.mark.parametrize("width", [1280, 390])
+def test_page_of_a_scheme_tells_who_what_and_whether_and_compares(
+    width: int, served: Served, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    vehicles = ["--vehicle", "a_double", "--vehicle", "interlink"]
+    said = [
+        "--project",
+        "Bridge",
+        "--author",
+        "An assessor",
+        "--date",
+        "2026-11-24",
+        "--units",
+        "engineering",
+    ]
+    scheme = ["--scheme", "pbs", "--level", "2"]
+    assert run(["assess", *vehicles, *scheme, *said, "--html", str(tmp_path / "page.html")]) == 1
+    capsys.readouterr()
+    shown = served.looked_at(width)
+    assert shown["needed"] <= width
+    assert [each for each in shown["outside"] if not re.match("<t|<div class=.scroll", each)] == []
+    assert shown["verdict"].startswith(
+        "FAILS pbs, level 2; level reached: 4; decided by high speed transient"
+    )
+    assert shown["heading"].startswith(
+        "Project: BridgeAuthor: An assessorDate: 2026-11-24Scheme: Performance"
+    )
+    assert shown["turns"] == 2
+    assert shown["drawings"] == 2
+    assert {"Side by side", "What differs in their data", "Units", "Axles"} <= set(shown["tables"])
+    assert len(shown["rows"]) == len(load_scheme("pbs").measures)
+
+
+@needs_browser
+def test_page_prints_to_a4(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "page.pdf"
+    assert run(["assess", "--vehicle", "interlink", "--scheme", "rtac", "--pdf", str(path)]) == 0
+    capsys.readouterr()
+    boxes = set(re.findall(rb"/MediaBox \[([^\]]+)\]", path.read_bytes()))
+    (box,) = (tuple(map(float, each.split())) for each in boxes)
+    assert box == pytest.approx((0.0, 0.0, 595.0, 842.0), abs=1.5)
+
+
+def test_without_a_browser_printing_says_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert run(["assess", "--scheme", "rtac", "--pdf", str(tmp_path / "page.pdf")]) == 2
+    assert "needs a browser that prints, none of chromium," in capsys.readouterr().err
+
+
+@needs_browser
 def test_page_of_an_unstable_vehicle_leaves_out_what_there_is_not(served: Served, tmp_path: Path) -> None:
     car = load_vehicle("single_vehicle", ["units.0.axles.1.cornering_stiffness=3e4"])
-    (tmp_path / "page.html").write_text(assessment_page(car, "consistent", assess(car, speed=40.0)))
+    findings = assess(car, speed=40.0)
+    page = assessment_page([Assessment(car, "consistent", load_scheme("lateral"), None, findings)])
+    (tmp_path / "page.html").write_text(page)
     shown = served.looked_at(390, "--blink-settings=preferredColorScheme=0")
     assert shown["verdict"].startswith("Fails: least damping ratio")
     assert shown["needed"] <= 390
@@ -152,7 +211,8 @@ def test_page_of_an_unstable_vehicle_leaves_out_what_there_is_not(served: Served
 @pytest.mark.parametrize("name", builtin_vehicles())
 def test_page_of_every_builtin_needs_nothing_from_elsewhere(name: str) -> None:
     vehicle = load_vehicle(name)
-    text = assessment_page(vehicle, "consistent", assess(vehicle))
+    scheme = load_scheme("lateral")
+    text = assessment_page([Assessment(vehicle, "consistent", scheme, None, assess(vehicle))])
     addresses = set(re.findall(r"https?://[^\"'\s)]+", text))
     assert addresses == {"http://www.w3.org/2000/svg"}
     assert not re.search(r"<link[^>]+href=\"(?!data:)|<script[^>]+src=|@import|url\(", text)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
         peak_amplification,
         rearward_amplification,
     )
-    from yawdamp_ros.analysis.assessment import Finding, Outcome, Verdict, assess, failed, outcome
+    from yawdamp_ros.analysis.assessment import Assessment, Finding, Outcome, Verdict, assess, failed, outcome
     from yawdamp_ros.analysis.boundaries import (
         Boundary,
         critical_speed,
@@ -59,6 +59,7 @@ __all__ = [
     "SPEEDS",
     "VEHICLE_MEASURES",
     "AnalysisError",
+    "Assessment",
     "Boundary",
     "Finding",
     "Locus",
@@ -112,7 +113,15 @@ __all__ = [
 __getattr__ = load_on_use(
     __name__,
     {
-        "yawdamp_ros.analysis.assessment": ("Finding", "Outcome", "Verdict", "assess", "failed", "outcome"),
+        "yawdamp_ros.analysis.assessment": (
+            "Assessment",
+            "Finding",
+            "Outcome",
+            "Verdict",
+            "assess",
+            "failed",
+            "outcome",
+        ),
         "yawdamp_ros.analysis.boundaries": (
             "Boundary",
             "critical_speed",

@@ -95,6 +95,47 @@ class Outcome:
     unknown: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class Assessment:
+    """One vehicle, judged.
+
+    Attributes
+    ----------
+    vehicle : Vehicle
+    model : str
+    scheme : Scheme
+    level : str or None
+        That was asked for.
+    findings : tuple of Finding
+    """
+
+    vehicle: Vehicle
+    model: str
+    scheme: Scheme
+    level: str | None
+    findings: tuple[Finding, ...]
+
+    @property
+    def outcome(self) -> Outcome:
+        """What it comes to."""
+        return outcome(self.findings, self.scheme)
+
+    @property
+    def sentence(self) -> str:
+        """Verdict on the whole."""
+        scheme, found = self.scheme, self.outcome
+        asked = f"{scheme.name}, level {self.level}" if self.level else scheme.name
+        said = {Verdict.PASS: "meets", Verdict.FAIL: "FAILS", Verdict.OPEN: "meets what is known of"}
+        parts = [f"{said[found.verdict]} {asked}"]
+        if scheme.levels[0]:
+            parts.append(f"level reached: {found.reached or 'none'}")
+        if found.deciding:
+            parts.append(f"decided by {', '.join(found.deciding)}")
+        if found.unknown:
+            parts.append(f"not known: {', '.join(found.unknown)}")
+        return "; ".join(parts)
+
+
 def assess(  # noqa: PLR0913, PLR0917 - each chooses one thing
     vehicle: Vehicle,
     model: str = "consistent",

@@ -200,3 +200,25 @@ def along_guide(turn: Turn, x: FloatArray, y: FloatArray) -> tuple[FloatArray, F
     )
     inwards = np.select(places, [radius - distance, radius + distance, y], radius - x)
     return way, inwards
+
+
+def on_guide(turn: Turn, way: FloatArray, inwards: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Points by their place along the guided path and their distance across it: `along_guide` backwards.
+
+    Parameters
+    ----------
+    turn : Turn
+    way, inwards : ndarray, shape (m,)
+        In m.
+
+    Returns
+    -------
+    x, y : ndarray, shape (m,)
+        In m.
+    """
+    turned = np.clip(way / turn.radius, 0.0, turn.angle)
+    heading = np.exp(1j * turned)
+    before, beyond = np.minimum(way, 0.0), np.maximum(way - turn.radius * turn.angle, 0.0)
+    guide = turn.radius * (np.sin(turned) + 1j * (1.0 - np.cos(turned))) + before + beyond * heading
+    point = guide + 1j * inwards * heading
+    return point.real, point.imag

@@ -3,15 +3,17 @@
 import argparse
 import json
 from collections.abc import Sequence
+from datetime import datetime
 from pathlib import Path
 
-from yawdamp_ros.analysis import Finding, assess, builtin_schemes, failed, load_scheme, outcome
+from yawdamp_ros.analysis import Assessment, Finding, assess, builtin_schemes, failed, load_scheme
 from yawdamp_ros.analysis.assessment import differences
+from yawdamp_ros.analysis.engineering import SI, SYSTEMS
 from yawdamp_ros.analysis.measures import NONLINEAR
 from yawdamp_ros.analysis.schemes import DEFAULT_SCHEME
 from yawdamp_ros.cli import assess_report
-from yawdamp_ros.cli.engineering import SI, SYSTEMS
 from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.number import ROUNDING_NOISE, number
 from yawdamp_ros.cli.options import DEFAULT_MODEL, Parser, add_vehicle_options, chosen_vehicle
 from yawdamp_ros.cli.table import print_table
@@ -27,13 +29,23 @@ def main(argv: Sequence[str]) -> int:
     if options.differences:
         return _differences(options)
     assessments = [_assessed(options, name) for name in options.vehicle or [None]]
-    if options.html:
+    if options.html or options.pdf:
         # Here and not above: what the page needs takes longer to load than most assessments to run.
-        from yawdamp_ros.pictures.assessment_page import assessment_page  # noqa: PLC0415
-        from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
+        from yawdamp_ros.pictures.assessment_page import Heading, assessment_page  # noqa: PLC0415
+        from yawdamp_ros.pictures.page import print_page, save_page  # noqa: PLC0415
 
-        first = assessments[0]
-        save_page(assessment_page(first.vehicle, first.model, first.findings), options.html)
+        heading = Heading(
+            options.project, options.author, options.date or datetime.now().astimezone().date().isoformat()
+        )
+        page = assessment_page(assessments, heading, options.units)
+        if options.html:
+            save_page(page, options.html)
+        if options.pdf:
+            print_page(page, options.pdf)
+    if options.xlsx:
+        from yawdamp_ros.cli.workbook import save_workbook  # noqa: PLC0415
+
+        save_workbook(assess_report.table(assessments, options.units), options.xlsx)
     if options.format == "json":
         assess_report.print_json(assessments)
     elif options.format == "csv":
@@ -48,26 +60,30 @@ def main(argv: Sequence[str]) -> int:
     return 1 if any(failed(one.findings) for one in assessments) else 0
 
 
-def _assessed(options: argparse.Namespace, name: str | None) -> assess_report.Assessed:
+def _assessed(options: argparse.Namespace, name: str | None) -> Assessment:
     vehicle = chosen_vehicle(argparse.Namespace(**{**vars(options), "vehicle": name}))
     model = options.model or DEFAULT_MODEL
     scheme = load_scheme(options.scheme)
     findings = assess(vehicle, model, options.speed, options.srt, scheme, options.level)
-    return assess_report.Assessed(vehicle, model, scheme, options.level, findings, outcome(findings, scheme))
+    return Assessment(vehicle, model, scheme, options.level, findings)
 
 
 def _check(options: argparse.Namespace) -> None:
-    if options.html is not None and Path(options.html).suffix.lower() not in PAGES:
-        message = f"--html: {options.html}: expected a name ending in {' or '.join(PAGES)}"
-        raise UsageError(message)
-    if options.html and options.model == NONLINEAR and not options.differences:
-        message = "--html: its pictures are of a linear model; not with --model nonlinear"
-        raise UsageError(message)
+    for name, endings in (("html", PAGES), ("pdf", (".pdf",)), ("xlsx", (".xlsx",))):
+        path = getattr(options, name)
+        if path is not None and Path(path).suffix.lower() not in endings:
+            message = f"--{name}: {path}: expected a name ending in {' or '.join(endings)}"
+            raise UsageError(message)
+        if path is not None and options.model == NONLINEAR and not options.differences and name != "xlsx":
+            message = f"--{name}: its pictures are of a linear model; not with --model nonlinear"
+            raise UsageError(message)
+    if options.xlsx:
+        require("openpyxl")
 
 
 def _differences(options: argparse.Namespace) -> int:
     """Say by how much each measure differs between the models, at its own manoeuvre."""
-    for name in ("html", "srt", "model", "level"):
+    for name in ("html", "pdf", "xlsx", "srt", "model", "level"):
         if getattr(options, name) is not None:
             message = f"--{name}: not with --differences, which compares the models"
             raise UsageError(message)
@@ -162,6 +178,12 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FILE",
         help="also write one page for a browser: table, curves, animated plan view, mode shapes, definitions",
     )
+    group.add_argument(
+        "--pdf", metavar="FILE", help="the same page on A4, by an installed Chromium or Chrome"
+    )
+    group.add_argument("--xlsx", metavar="FILE", help="also write the table of --format csv as a spreadsheet")
+    for name in ("project", "author", "date"):
+        group.add_argument(f"--{name}", default="", metavar="TEXT", help=f"{name} that the page names")
     group.add_argument(
         "--definitions", action="store_true", help="also say what each measure is, and its levels in full"
     )

@@ -6,43 +6,20 @@ import math
 import sys
 import textwrap
 from collections.abc import Sequence
-from typing import NamedTuple
 
-from yawdamp_ros.analysis import Finding, Outcome, Scheme, Verdict
+from yawdamp_ros.analysis import Assessment, Finding
+from yawdamp_ros.analysis.engineering import SI, converted
 from yawdamp_ros.analysis.schemes import DEFAULT_SCHEME, SIGNS
-from yawdamp_ros.cli.engineering import SI, converted
 from yawdamp_ros.cli.number import number
 from yawdamp_ros.cli.table import print_table
-from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle
+from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
 VERDICTS = {True: "pass", False: "FAIL", None: "n/a"}
 WIDTH = 80
 """Columns of a table of one scheme."""
 
 
-class Assessed(NamedTuple):
-    """One vehicle, judged.
-
-    Attributes
-    ----------
-    vehicle : Vehicle
-    model : str
-    scheme : Scheme
-    level : str or None
-        That was asked for.
-    findings : tuple of Finding
-    outcome : Outcome
-    """
-
-    vehicle: Vehicle
-    model: str
-    scheme: Scheme
-    level: str | None
-    findings: tuple[Finding, ...]
-    outcome: Outcome
-
-
-def record(assessed: Assessed) -> dict[str, object]:
+def record(assessed: Assessment) -> dict[str, object]:
     """Return an assessment by a chosen scheme as a JSON object."""
     names = assessed.scheme.levels
     return {
@@ -78,7 +55,7 @@ def finding_record(finding: Finding) -> dict[str, object]:
     }
 
 
-def print_json(assessments: Sequence[Assessed]) -> None:
+def print_json(assessments: Sequence[Assessment]) -> None:
     """Print one object, or a list of several; of the default scheme the measures alone."""
     if assessments[0].scheme.name == DEFAULT_SCHEME:
         records: list[object] = [[finding_record(each) for each in one.findings] for one in assessments]
@@ -87,7 +64,7 @@ def print_json(assessments: Sequence[Assessed]) -> None:
     print(json.dumps(records[0] if len(records) == 1 else records, indent=2))
 
 
-def table(assessments: Sequence[Assessed], units: str = SI) -> list[list[object]]:
+def table(assessments: Sequence[Assessment], units: str = SI) -> list[list[object]]:
     """Rows of a spreadsheet, the first of headings: a row for each measure of each vehicle."""
     rows: list[list[object]] = [
         [
@@ -113,41 +90,24 @@ def table(assessments: Sequence[Assessed], units: str = SI) -> list[list[object]
     return rows
 
 
-def print_csv(assessments: Sequence[Assessed], units: str) -> None:
+def print_csv(assessments: Sequence[Assessment], units: str) -> None:
     """Print the rows of `table`."""
     csv.writer(sys.stdout, lineterminator="\n").writerows(table(assessments, units))
 
 
-def print_text(assessed: Assessed, units: str) -> None:
+def print_text(assessed: Assessment, units: str) -> None:
     """Print the verdict first, then the measures."""
     title = f"{assessed.vehicle.name}, {assessed.model} model"
     if assessed.scheme.name == DEFAULT_SCHEME:
         _print_plain(title, assessed.findings, units)
     else:
         print(title)
-        print(textwrap.fill(verdict_sentence(assessed), WIDTH))
+        print(textwrap.fill(assessed.sentence, WIDTH))
         _print_scheme(assessed, units)
     _print_notes(assessed.findings)
 
 
-def verdict_sentence(assessed: Assessed) -> str:
-    """Return the verdict of the whole as a sentence."""
-    scheme, found = assessed.scheme, assessed.outcome
-    asked = f"{scheme.name}, level {assessed.level}" if assessed.level else scheme.name
-    said = {Verdict.PASS: "meets", Verdict.FAIL: "FAILS", Verdict.OPEN: "meets what is known of"}[
-        found.verdict
-    ]
-    parts = [f"{said} {asked}"]
-    if scheme.levels[0]:
-        parts.append(f"level reached: {found.reached or 'none'}")
-    if found.deciding:
-        parts.append(f"decided by {', '.join(found.deciding)}")
-    if found.unknown:
-        parts.append(f"not known: {', '.join(found.unknown)}")
-    return "; ".join(parts)
-
-
-def print_side_by_side(assessments: Sequence[Assessed], units: str) -> None:
+def print_side_by_side(assessments: Sequence[Assessment], units: str) -> None:
     """Print several vehicles beside each other, values that fail marked with an exclamation mark."""
     rows = []
     for findings in zip(*(one.findings for one in assessments), strict=True):
@@ -163,7 +123,7 @@ def print_side_by_side(assessments: Sequence[Assessed], units: str) -> None:
     print("! fails")
 
 
-def print_definitions(assessed: Assessed) -> None:
+def print_definitions(assessed: Assessment) -> None:
     """Say what each measure is, and where its limits were read."""
     secondary = assessed.scheme.name == DEFAULT_SCHEME
     print(f"\nDefinitions{'; levels are from secondary sources' if secondary else ''}")
@@ -206,7 +166,7 @@ def _print_plain(title: str, findings: Sequence[Finding], units: str) -> None:
         print(f"understeer gradient: {number(shown)} deg/g")
 
 
-def _print_scheme(assessed: Assessed, units: str) -> None:
+def _print_scheme(assessed: Assessment, units: str) -> None:
     levels = assessed.scheme.levels
     columns = ["measure", "value", "unit", "limit", "verdict", *(["level"] if levels[0] else [])]
     rows = []

@@ -26,6 +26,7 @@ EXTRAS = MappingProxyType(
     {
         "matplotlib": Extra("python3-matplotlib", "pictures"),
         "plotly": Extra("python3-plotly", "pictures"),
+        "openpyxl": Extra("python3-openpyxl", "tables"),
         "control": Extra("", "analysis"),
         "distributed": Extra("python3-distributed", "cluster"),
     }

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,7 +10,9 @@ from yawdamp_ros.analysis import (
     MEASURES,
     SAE_J2179,
     AnalysisError,
+    Assessment,
     Finding,
+    Scheme,
     amplification_at,
     axle_path,
     modes,
@@ -17,9 +20,13 @@ from yawdamp_ros.analysis import (
     run_lane_change,
     steer_axle_position,
 )
+from yawdamp_ros.analysis.assessment import ROLLOVER
+from yawdamp_ros.analysis.engineering import SI, converted
+from yawdamp_ros.analysis.schemes import DEFAULT_SCHEME, SIGNS
 from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.pictures.assessment_data import differing, side_view, turn_view, vehicle_tables
 from yawdamp_ros.pictures.page import page_text
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, Unit, Vehicle
 
@@ -32,65 +39,212 @@ LARGEST_YAW = 0.22
 EVERY = 8
 """Samples of the lane change from one frame to the next."""
 
+MOST_ROLL = 0.35
+"""Largest mean roll of the curves of static roll, in rad."""
+
+NOISE = 1e-9
+"""Magnitude below which a value is rounding of its inputs, and shown as 0."""
+
 _SHOWN_DECAY, _POINTS = 0.002, 400
 
 
-def assessment_page(vehicle: Vehicle, model: str, findings: Sequence[Finding]) -> str:
-    """HTML text of an assessment.
+class Heading(NamedTuple):
+    """What a page says of itself.
+
+    Attributes
+    ----------
+    project, author, date : str
+        Empty where nothing is to be said.
+    """
+
+    project: str = ""
+    author: str = ""
+    date: str = ""
+
+
+def assessment_page(
+    assessments: Sequence[Assessment], heading: Heading | None = None, units: str = SI
+) -> str:
+    """HTML text of an assessment of one vehicle, or of several side by side.
 
     Parameters
     ----------
-    vehicle : Vehicle
-    model : str
-        One of `yawdamp_ros.dynamics.MODELS`.
-    findings : sequence of Finding
-        As `assess` gives them.
+    assessments : sequence of Assessment
+        By one scheme and one linear model. The lane change, the curves and the modes are those of the first.
+    heading : Heading, optional
+    units : str
+        One of `yawdamp_ros.analysis.engineering.SYSTEMS`.
 
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis import assess, load_scheme
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> vehicle, rtac = load_vehicle("interlink"), load_scheme("rtac")
+    >>> page = assessment_page([Assessment(vehicle, "consistent", rtac, None, assess(vehicle, scheme=rtac))])
+    >>> page.startswith("<!DOCTYPE html>")
+    True
     """
+    first = assessments[0]
+    vehicle, model, findings = first.vehicle, first.model, first.findings
     found = {finding.measure.name: finding for finding in findings}
+
+    def speed_of(name: str) -> float:
+        return found[name].speed if name in found else MEASURES[name].speed_for(vehicle)
+
+    names = ", ".join(one.vehicle.name for one in assessments)
+    at, unit = converted(vehicle.speed, "m/s", units)
     data = {
-        "title": f"{vehicle.name}: lateral performance",
+        "title": f"{names}: {_subject(first.scheme)}",
+        "heading": _heading(first, heading or Heading()),
         "subtitle": f"{model} model, {len(vehicle.units)} units, "
-        f"{sum(unit.mass for unit in vehicle.units) / 1000.0:.1f} t, own speed {vehicle.speed:.2f} m/s",
-        "rows": [_row(finding) for finding in findings],
+        f"{sum(unit.mass for unit in vehicle.units) / 1000.0:.1f} t, own speed {at:.2f} {unit}",
+        "verdict": _verdict(first),
+        "rows": [_row(finding, first, units) for finding in findings],
+        "speed_unit": unit,
         "notes": _notes(findings),
+        "compared": _compared(assessments, units) if len(assessments) > 1 else None,
+        "drawings": [
+            {"name": one.vehicle.name, **side_view(one.vehicle), "tables": vehicle_tables(one.vehicle)}
+            for one in assessments
+        ],
+        "turns": [turn for one in assessments if (turn := turn_view(one.vehicle))],
+        "roll": _roll_curves(vehicle) if set(ROLLOVER) & set(found) else None,
         "units": [_unit(unit) for unit in vehicle.units],
         "couplings": vehicle.hitches,
         "length": _length(vehicle),
         "start": 3.0,
-        "lane_change": _lane_change(vehicle, model, found["rearward_amplification"].speed),
+        "lane_change": _lane_change(vehicle, model, speed_of("rearward_amplification")),
         "curves": [
-            *_decay(linear_model(vehicle, found["yaw_damping_coefficient"].speed, model)),
-            *_amplification(linear_model(vehicle, found["rearward_amplification_peak_gain"].speed, model)),
+            *_decay(linear_model(vehicle, speed_of("yaw_damping_coefficient"), model)),
+            *_amplification(linear_model(vehicle, speed_of("rearward_amplification_peak_gain"), model)),
         ],
-        **_modes(linear_model(vehicle, found["least_damping_ratio"].speed, model)),
+        **_modes(linear_model(vehicle, speed_of("least_damping_ratio"), model)),
+        "sources": first.scheme.sources,
     }
-    return page_text("assessment.html", f"{vehicle.name}: lateral performance", data)
+    return page_text("assessment.html", f"{names}: {first.scheme.name}", data)
 
 
-def _row(finding: Finding) -> dict[str, object]:
+def _subject(scheme: Scheme) -> str:
+    return "lateral performance" if scheme.name == DEFAULT_SCHEME else f"assessment by {scheme.name}"
+
+
+def _heading(assessment: Assessment, heading: Heading) -> list[list[str]]:
+    """Names and texts of what the page says of itself."""
+    said = {"Project": heading.project, "Author": heading.author, "Date": heading.date}
+    if assessment.scheme.name != DEFAULT_SCHEME:
+        said |= {"Scheme": assessment.scheme.title, "Level": assessment.level or ""}
+    return [[name, text] for name, text in said.items() if text]
+
+
+def _verdict(assessment: Assessment) -> dict[str, object]:
+    """Verdict on the whole in a sentence, and whether it is one of failing."""
+    judged = [finding for finding in assessment.findings if finding.passed is not None]
+    failures = [finding.measure.name.replace("_", " ") for finding in judged if not finding.passed]
+    if assessment.scheme.name == DEFAULT_SCHEME:
+        text = (
+            f"Fails: {', '.join(failures)}"
+            if failures
+            else (f"Meets every level that could be judged ({len(judged)})")
+        )
+    else:
+        text = assessment.sentence.replace("_", " ")
+    return {"text": text[0].upper() + text[1:], "fails": bool(failures)}
+
+
+def _compared(assessments: Sequence[Assessment], units: str) -> list[dict[str, object]]:
+    """Tables of the values of several vehicles, and of what differs in their data."""
+    rows = []
+    for findings in zip(*(one.findings for one in assessments), strict=True):
+        cells = [
+            _shown(finding, units) + (" \u2717" if finding.passed is False else "") for finding in findings
+        ]
+        rows.append([findings[0].measure.name.replace("_", " "), *cells])
+    reached = [one.outcome.reached or "\u2013" for one in assessments]
+    rows.append(["verdict", *(one.outcome.verdict.value for one in assessments)])
+    if assessments[0].scheme.levels[0]:
+        rows.append(["level reached", *reached])
+    names = [one.vehicle.name for one in assessments]
+    return [
+        {
+            "title": "Side by side",
+            "columns": ["measure", *names],
+            "rows": rows,
+            "note": "\u2717 fails its limit",
+        },
+        {"title": "What differs in their data", "columns": ["key", *names], "rows": differing(assessments)},
+    ]
+
+
+def _shown(finding: Finding, units: str) -> str:
     measure, value = finding.measure, finding.value
-    shown = "none" if value is None else f"{value:.4g} {measure.unit.replace('s2', 's²')}".strip()
     if measure.name == "understeer_gradient" and value is not None:
-        shown = f"{math.degrees(value) * STANDARD_GRAVITY:.4f} deg/g"
+        return f"{math.degrees(value) * STANDARD_GRAVITY:.4f} deg/g"
+    shown, unit = converted(value, measure.unit, units)
+    if shown is None:
+        return "none"
+    named = unit.replace("s2", "s\u00b2")
+    return f"{0.0 if abs(shown) < NOISE else shown:.4g} {named}".strip()
+
+
+def _row(finding: Finding, assessment: Assessment, units: str) -> dict[str, object]:
+    measure, levels = finding.measure, assessment.scheme.levels
+    level = finding.level or ""
+    if assessment.scheme.name != DEFAULT_SCHEME:
+        limits = [
+            f"{SIGNS[each.kind]} {limit:.4g}" if limit is not None else f"{SIGNS[each.kind]} ?"
+            for each, limit in zip(finding.requirements, finding.limits, strict=True)
+        ]
+        reached = (
+            f"; reaches level {levels[finding.reached]}" if finding.reached is not None and levels[0] else ""
+        )
+        by = "".join(f" ({each.text})" for each in finding.requirements if each.times or len(each.limits) > 1)
+        level = "; ".join(limits) + by.replace("_", " ") + reached
+    at, _ = converted(finding.speed, "m/s", units)
     return {
         "measure": measure.name,
         "name": measure.name.replace("_", " "),
-        "shown": shown,
-        "level": (finding.level or "").replace("<=", "≤").replace(">=", "≥"),
+        "shown": _shown(finding, units),
+        "level": level.replace("<=", "\u2264").replace(">=", "\u2265"),
         "pass": finding.passed,
-        "speed": f"{finding.speed:.2f}",
+        "speed": f"{at:.2f}" if at else "\u2013",
         "definition": measure.definition[0].upper() + measure.definition[1:],
         "reason": finding.reason,
     }
 
 
+def _roll_curves(vehicle: Vehicle) -> list[dict[str, object]] | None:
+    """Lateral acceleration that holds a roll, of every group of units that roll together."""
+    # Numba takes long to import, which no linear assessment waits for.
+    from yawdamp_ros.nonlinear import NonlinearError  # noqa: PLC0415
+    from yawdamp_ros.nonlinear.static_roll import static_rollover  # noqa: PLC0415
+
+    try:
+        groups = static_rollover(vehicle)
+    except NonlinearError:
+        return None
+    return [
+        {
+            "name": " + ".join(group.units),
+            "x": _rounded(np.degrees(group.curve[shown, 0])),
+            "y": _rounded(group.curve[shown, 1]),
+        }
+        for group in groups
+        for shown in [group.curve[:, 0] < MOST_ROLL]
+    ]
+
+
 def _notes(findings: Sequence[Finding]) -> str:
     notes = list(dict.fromkeys(f"No value: {finding.reason}." for finding in findings if finding.reason))
     notes += [f"Ambiguous: {finding.ambiguity}." for finding in findings if finding.ambiguity]
+    notes += [
+        f"{finding.measure.name.replace('_', ' ')}: {caveat}."
+        for finding in findings
+        if finding.value is not None and (caveat := getattr(finding.measure, "caveat", ""))
+    ]
     if any(limit is None for f in findings if f.value is not None for limit in f.limits):
         notes.append("The PBS level of rearward amplification takes the static rollover threshold (--srt).")
     return " ".join(notes)
