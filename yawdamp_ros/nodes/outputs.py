@@ -54,6 +54,7 @@ class Topics:
             if count > 1:
                 message = f"topic {topic}: {count} outputs are remapped to it; expected one each"
                 raise NodeError(message)
+        self._newest: Encoded | None = None
         self._clock: Any = None
         if settings.clock:
             self.publish_clock()
@@ -77,6 +78,7 @@ class Topics:
 
     def write(self, encoded: Encoded) -> None:
         """Publish a sample of one instant."""
+        self._newest = encoded
         [stamp], [messages] = encoded.stamps, encoded.messages
         if self._clock is not None:
             self._clock.publish(Clock(clock=Time(nanoseconds=stamp).to_msg()))
@@ -90,6 +92,11 @@ class Topics:
             self._tf_static = None  # once is for good: the publisher is the node's
         if self._markers is not None:
             self._markers.publish(markers(*scene))
+
+    def repeat(self) -> None:
+        """Publish the newest sample once more, for those who came after it."""
+        if self._newest is not None:
+            self.write(self._newest)
 
     def close(self) -> None:
         """Let subscribers have what was published."""

@@ -1,6 +1,7 @@
 """Declaring, checking and changing the parameters of the simulator node."""
 
 import difflib
+from array import array
 from collections.abc import Iterable, Mapping
 from dataclasses import Field, replace
 from pathlib import Path
@@ -20,7 +21,7 @@ _TYPE_NAMES = {
     int: "an integer",
     float: "a double",
     str: "a string",
-    list: "a list of strings",
+    list: "a list",
 }
 _OF_RCLPY = ("use_sim_time", "qos_overrides.", "start_type_description_service")
 
@@ -59,18 +60,16 @@ def declare_parameters(node: Node) -> SimParameters:
     return settings
 
 
-def declare_derived(node: Node, speed: float, *, clock: bool) -> None:
+def declare_derived(node: Node, values: Mapping[str, Any]) -> None:
     """Declare the parameters that were not given and follow from others, so that they tell what is in force.
 
     Parameters
     ----------
     node : Node
-    speed : float
-        In m/s.
-    clock : bool
-        Whether /clock is published.
+    values : mapping of str to object
+        In force, by name.
     """
-    for name, value in (("speed", speed), ("publish_clock", clock)):
+    for name, value in values.items():
         if not node.has_parameter(name):
             node.declare_parameter(name, value, parameter_descriptor(PARAMETERS[name]))
 
@@ -161,7 +160,8 @@ def _given(node: Node) -> dict[str, Any]:
             raise NodeError(message)
         if new != name:
             node.get_logger().warning(f"parameter {name}: renamed to {new}; this release accepts both")
-        given[new] = FORMER_VALUES.get((name, str(parameter.value)), parameter.value)
+        value = list(parameter.value) if isinstance(parameter.value, array) else parameter.value
+        given[new] = FORMER_VALUES.get((name, str(value)), value)
     return given
 
 
@@ -170,9 +170,12 @@ def _check(name: str, value: Any) -> None:  # noqa: ANN401 - of any type that a 
     described: Mapping[str, Any] = declared.metadata
     kind: type = described["kind"]
     problem = ""
-    mixed = kind is list and not all(isinstance(item, str) for item in value or [])
+    default = getattr(SimParameters(), declared.name)
+    mixed = kind is list and {type(item) for item in value or []} - {type(default[0])}
     if type(value) is not kind or mixed:
         problem = f"expected {_TYPE_NAMES[kind]}"
+        if kind is list:
+            problem += f" of {'doubles' if isinstance(default[0], float) else 'strings'}"
         if kind is float and type(value) is int:
             problem += f", write {value}.0"
     elif described["choices"] and value not in described["choices"]:

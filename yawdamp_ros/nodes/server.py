@@ -74,10 +74,18 @@ class Server:
         # Half of what is made up for: a start that took longer shows as a jump of the stamps.
         since = max(simulator.started_at, time.monotonic_ns() - CATCH_UP_NS // 2)
         self._pacer = Pacer(simulator.grid.period_ns, rate, since)
+        self._waiting = simulator.settings.wait_for_command
+        if self._waiting or simulator.settings.start_paused:
+            self._pacer.pause(time.monotonic_ns())
+            awaited = "the first command" if self._waiting else "~/pause or ~/step"
+            node.get_logger().info(f"time stands until {awaited} comes")
         self._timer = node.create_timer(self._timer_period(), guard(self._on_timer), clock=steady)
 
     def _on_timer(self) -> None:
         now = time.monotonic_ns()
+        if self._waiting and self._simulator.commands.commanded:
+            self._waiting = False
+            self._pacer.resume(now)
         clock = ros_time(now)
         due = self._pacer.due(now)
         self._worst_lateness = max(self._worst_lateness, due.lateness / SECOND)
@@ -129,6 +137,7 @@ class Server:
         if request.data:
             self._pacer.pause(time.monotonic_ns())
         else:
+            self._waiting = False
             self._pacer.resume(time.monotonic_ns())
         response.success = True
         response.message = (
@@ -140,7 +149,10 @@ class Server:
         run = self._simulator.run
         response.success = self._pacer.paused and not self._simulator.finished
         if response.success:
-            self._simulator.advance(time.time_ns())
+            for index in range(self._simulator.settings.step_samples):
+                if self._simulator.finished:
+                    break
+                self._simulator.advance(None if index else time.time_ns())
             response.success = run.stopped is None
             response.message = (
                 answer(Reply.STOPPED, run.stopped.reason)
@@ -173,6 +185,9 @@ class Server:
         elapsed, self._looked_at = (now - self._looked_at) / SECOND, now
         self._diagnostics.publish(self._diagnosis.of(self._readings(), elapsed, time.time_ns()))
         self._worst_lateness = 0.0
+        if self._pacer.paused and self._simulator.run.samples == 1:
+            # Whoever waits for a sample before it commands would wait for ever.
+            self._simulator.topics.repeat()
         self._tell_silence()
         self._tell_speed()
         recorder = self._simulator.recorder

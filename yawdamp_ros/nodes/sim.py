@@ -45,9 +45,14 @@ class Simulator:
         vehicle, doubts = examined_vehicle(source.text, settings.vehicle, source.overrides)
         self._doubts = doubts
         self.grid = TimeGrid.of(settings.step_size, 1.0 / settings.publish_rate)
-        self.motion = make_motion(vehicle, settings.model, settings.speed, self.grid.step_size)
-        self.settings = settings = replace(settings, speed=self.motion.speed)
-        declare_derived(node, self.motion.speed, clock=settings.clock)
+        self.motion = make_motion(
+            vehicle, settings.model, settings.first_speed, self.grid.step_size, settings.first_pose
+        )
+        speed = self.motion.speed if settings.speed is None else settings.speed
+        self.settings = settings = replace(settings, speed=speed, initial_speed=self.motion.speed)
+        declare_derived(
+            node, {"speed": speed, "initial_speed": self.motion.speed, "publish_clock": settings.clock}
+        )
         self.model = self.motion.linearise()
         self.commands = Commands(settings, self.grid, self.motion)
         self._subscriptions: list[SteeringSubscription | InputSubscription] = [

@@ -1,5 +1,6 @@
 """The nonlinear model of one vehicle behind a small interface."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -30,7 +31,7 @@ from yawdamp_ros.nonlinear.records import (
     make_work,
 )
 from yawdamp_ros.nonlinear.settings import Settings
-from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle
+from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle, supports
 
 
 @dataclass(frozen=True)
@@ -150,12 +151,59 @@ class NonlinearDynamics:
         made[GEAR] = 1.0
         return made
 
-    def initial_state(self, speed: float) -> FloatArray:
-        """State of straight motion at a speed [m/s], at the origin along X; negative is backwards."""
+    def initial_state(
+        self,
+        speed: float,
+        pose: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        articulation: Sequence[float] = (),
+    ) -> FloatArray:
+        """Make a state in which the lead unit moves straight ahead and every trailer rolls behind it.
+
+        Parameters
+        ----------
+        speed : float
+            In m/s; negative is backwards.
+        pose : (float, float, float)
+            Position [m] and yaw [rad] of the lead unit.
+        articulation : sequence of float
+            Of every joint [rad]; empty: straight.
+
+        Returns
+        -------
+        ndarray
+
+        Raises
+        ------
+        NonlinearError
+            If there are not as many angles as joints.
+        """
         state = np.zeros(self.layout.size)
+        state[:3] = pose
         state[self.layout.velocity.start] = speed
         state[self.layout.carcass] = -np.sign(speed)
+        if len(articulation):
+            joints = self.layout.units - 1
+            if len(articulation) != joints:
+                message = f"articulation: {list(articulation)}: expected an angle for each of {joints} joints"
+                raise NonlinearError(message)
+            state[self.layout.articulation] = articulation
+            state[self.layout.yaw_rate] = self._rolling(speed, articulation)
         return state
+
+    def _rolling(self, speed: float, articulation: Sequence[float]) -> FloatArray:
+        """Yaw rates at which the axles of every trailer, taken at their centre, do not slide [rad/s]."""
+        rates = np.zeros(self.layout.units)
+        velocity = complex(speed)  # of the hitch, in the frame of the unit ahead of it
+        for joint, angle in enumerate(articulation):
+            ahead, unit = self.vehicle.units[joint], self.vehicle.units[joint + 1]
+            assert ahead.rear_hitch is not None  # noqa: S101 - of a vehicle that was loaded
+            assert unit.front_hitch is not None  # noqa: S101
+            velocity += 1j * rates[joint] * ahead.rear_hitch
+            velocity *= np.exp(1j * angle)
+            arm = unit.front_hitch - supports(unit).rear
+            rates[joint + 1] = velocity.imag / arm if arm > 0.0 else 0.0
+            velocity -= 1j * rates[joint + 1] * unit.front_hitch  # of the centre of gravity
+        return rates
 
     def derivatives(self, state: FloatArray, inputs: FloatArray) -> FloatArray:
         """Time derivative of a state.

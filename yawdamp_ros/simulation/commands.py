@@ -70,6 +70,8 @@ class Commands:
         )
         self._grid = grid
         self._motion = motion
+        if settings.speed is not None and settings.longitudinal_source == "parameter":
+            self.held["speed"].value = settings.speed
         self._applied: dict[str, float | None] = {"speed": motion.speed}
         self._settings = settings
         self._reset = False
@@ -114,6 +116,14 @@ class Commands:
         if name in LONGITUDINAL and name != self._settings.longitudinal_source:
             return self.held[name].reject(Verdict.NOT_SOURCE)
         return self.held[name].offer(value, self._motion.step)
+
+    @property
+    def commanded(self) -> bool:
+        """Whether a command has been accepted."""
+        step = self._motion.step
+        if self.steering_input.silence(step) is not None:
+            return True
+        return any(held.silence(step) is not None for held in self.held.values())
 
     def reset(self) -> None:
         """Return to rest at the origin at the next step."""

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from yawdamp_ros.dynamics import MODELS as LINEAR_MODELS
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.simulation.errors import SimulationError
-from yawdamp_ros.stepping import Motion, Stepper
+from yawdamp_ros.stepping import Motion, Start, Stepper
 from yawdamp_ros.vehicle import Vehicle
 
 Factory = Callable[[Vehicle, float | None, float], Motion]
@@ -31,8 +31,10 @@ MODELS: Mapping[str, Factory] = MappingProxyType(
 """A model is added here, and nowhere else; what it needs is best imported in its factory."""
 
 
-def make_motion(vehicle: Vehicle, model: str, speed: float | None, step_size: float) -> Motion:
-    """Motion of a vehicle by the model of a name, at rest at the origin.
+def make_motion(
+    vehicle: Vehicle, model: str, speed: float | None, step_size: float, start: Start | None = None
+) -> Motion:
+    """Motion of a vehicle by the model of a name, straight at the origin unless a start is given.
 
     Parameters
     ----------
@@ -43,6 +45,7 @@ def make_motion(vehicle: Vehicle, model: str, speed: float | None, step_size: fl
         Longitudinal speed in m/s; None: the vehicle's own.
     step_size : float
         In s.
+    start : Start, optional
 
     Returns
     -------
@@ -58,4 +61,7 @@ def make_motion(vehicle: Vehicle, model: str, speed: float | None, step_size: fl
     if model not in MODELS:
         message = f"model: {model!r}: expected one of {', '.join(MODELS)}"
         raise SimulationError(message)
-    return MODELS[model](vehicle, speed, step_size)
+    motion = MODELS[model](vehicle, speed, step_size)
+    if start is not None:
+        motion.begin(start)
+    return motion

@@ -12,7 +12,7 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.nonlinear import Event as NonlinearEvent
 from yawdamp_ros.nonlinear import EventKind, NonlinearDynamics, Outputs
 from yawdamp_ros.nonlinear.layout import ACCELERATION, FRICTION_LEFT, FRICTION_RIGHT, GEAR, SPEED, STEERING
-from yawdamp_ros.stepping import AppliedInput, Event, Sample
+from yawdamp_ros.stepping import AppliedInput, Event, Sample, Start
 from yawdamp_ros.vehicle import Vehicle
 
 QUANTITIES: Mapping[str, Callable[[Outputs], FloatArray]] = {
@@ -52,7 +52,8 @@ class NonlinearMotion:
         self._step_size = step_size
         self._first_speed = vehicle.speed if speed is None else speed
         self._inputs = self._dynamics.inputs(speed=self._first_speed)
-        self._state = self._dynamics.initial_state(self._first_speed)
+        self._first = self._dynamics.initial_state(self._first_speed)
+        self._state = self._first
         self._noted = self._dynamics.no_events()
         self._step = 0
         self._masses = {unit.name: unit.mass for unit in vehicle.units}
@@ -97,13 +98,19 @@ class NonlinearMotion:
         """Road-wheel steer angle in force from this instant on [rad]."""
         return float(self._inputs[STEERING])
 
+    def begin(self, start: Start) -> None:
+        """See `Motion`."""
+        pose = start.x, start.y, start.yaw
+        self._first = self._dynamics.initial_state(self._first_speed, pose, start.articulation)
+        self._state = self._first
+
     def apply(self, applied: AppliedInput) -> None:
         """Let an input act from this instant on.
 
         A speed and an acceleration end one another: the newer one counts.
         """
         if applied.name == "reset":
-            self._state = self._dynamics.initial_state(self._first_speed)
+            self._state = self._first
             self._noted = self._dynamics.no_events()
         else:
             places, scale = self._places[applied.name]
@@ -149,7 +156,7 @@ class NonlinearMotion:
         """State sufficient for `restore`; JSON has no NaN, which a speed that nothing holds is."""
         return {
             "step": self._step,
-            "speed": self._first_speed,
+            "first": self._first.tolist(),
             "state": self._state.tolist(),
             "inputs": [None if np.isnan(value) else value for value in self._inputs.tolist()],
             "events": self._noted.tolist(),
@@ -159,7 +166,8 @@ class NonlinearMotion:
     def restore(self, snapshot: Mapping[str, Any]) -> None:
         """Go on from a snapshot of the same vehicle; its inputs count as told."""
         self._step = snapshot["step"]
-        self._first_speed = snapshot["speed"]
+        self._first = np.array(snapshot["first"])
+        self._first_speed = float(self._first[self._dynamics.layout.velocity.start])
         self._state = np.array(snapshot["state"])
         self._inputs = np.array([np.nan if value is None else value for value in snapshot["inputs"]])
         self._noted = np.array(snapshot["events"], dtype=self._noted.dtype)

@@ -11,6 +11,7 @@ from yawdamp_ros.dynamics.linear_range import LINEAR_ARTICULATION, LINEAR_LATERA
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.simulation.models import MODELS
 from yawdamp_ros.simulation.steering_messages import STEERING_TYPES
+from yawdamp_ros.stepping import Start
 from yawdamp_ros.stepping.held_input import FASTEST_REVERSE, HIGHEST_SPEED
 
 UNSET = float("nan")
@@ -85,6 +86,26 @@ class SimParameters:
         choices=("parameter", "speed", "acceleration"),
         dynamic=True,
     )
+    initial_speed: float | None = _parameter(
+        None,
+        "speed at the start in m/s",
+        limits=(-FASTEST_REVERSE, HIGHEST_SPEED),
+        kind=float,
+        otherwise="speed",
+    )
+    initial_pose: list[float] = _parameter(
+        [0.0, 0.0, 0.0], "x and y in m and yaw in rad of the lead unit at the start, and after a reset"
+    )
+    initial_articulation: list[float] = _parameter(
+        [0.0], "of every joint at the start in rad; one 0: straight; nonlinear model"
+    )
+    start_paused: bool = _parameter(
+        default=False, description="time stands until ~/pause or ~/step is called"
+    )
+    wait_for_command: bool = _parameter(
+        default=False, description="time stands until the first command is accepted"
+    )
+    step_samples: int = _parameter(1, "sample periods that ~/step takes", limits=(1, 100_000), dynamic=True)
     step_size: float = _parameter(0.001, "fixed integration step in s", limits=(1e-6, 1.0))
     publish_rate: float = _parameter(100.0, "samples a second of simulated time, in Hz", limits=(0.1, 1e4))
     real_time_factor: float = _parameter(
@@ -204,17 +225,8 @@ class SimParameters:
 
     def problem(self) -> str:
         """What is wrong with these values taken together; empty if nothing is."""
-        if self.model != "nonlinear":
-            if self.speed is not None and self.speed < LOWEST_SPEED:
-                return (
-                    f"speed: {self.speed}: model {self.model} cannot stand or reverse; expected at least "
-                    f"{LOWEST_SPEED} m/s, or model nonlinear; leave it out for the vehicle's own"
-                )
-            if self.longitudinal_source == "acceleration":
-                return (
-                    f"longitudinal_source: acceleration: model {self.model} follows speeds alone; expected "
-                    "model nonlinear"
-                )
+        if problem := self._start_problem() or self._model_problem():
+            return problem
         if 0.0 < self.real_time_factor < SLOWEST:
             return f"real_time_factor: {self.real_time_factor}: expected 0, or {SLOWEST} to 100"
         if self.publish_rate * max(self.real_time_factor, 1.0) > FASTEST_RATE:
@@ -226,6 +238,43 @@ class SimParameters:
             given = next(iter(self.manoeuvre_settings))
             return f"manoeuvre.{given}: manoeuvre.name is none; expected a manoeuvre"
         return ""
+
+    def _start_problem(self) -> str:
+        if len(self.initial_pose) != len(Start._fields) - 1 or not all(map(math.isfinite, self.initial_pose)):
+            return f"initial_pose: {list(self.initial_pose)}: expected x and y in m and yaw in rad"
+        if not all(abs(angle) < math.pi for angle in self.initial_articulation):
+            return f"initial_articulation: {list(self.initial_articulation)}: expected angles below pi in rad"
+        if self.start_paused and self.wait_for_command:
+            return "wait_for_command: start_paused is given as well; expected one of the two"
+        return ""
+
+    def _model_problem(self) -> str:
+        if self.model == "nonlinear":
+            return ""
+        for name, speed in (("speed", self.speed), ("initial_speed", self.initial_speed)):
+            if speed is not None and speed < LOWEST_SPEED:
+                return (
+                    f"{name}: {speed}: model {self.model} cannot stand or reverse; expected at least "
+                    f"{LOWEST_SPEED} m/s, or model nonlinear; leave it out for the vehicle's own"
+                )
+        if self.longitudinal_source == "acceleration":
+            return (
+                f"longitudinal_source: acceleration: model {self.model} follows speeds alone; expected model "
+                "nonlinear"
+            )
+        return ""
+
+    @property
+    def first_speed(self) -> float | None:
+        """Speed at the start [m/s]; None: the vehicle's own."""
+        return self.speed if self.initial_speed is None else self.initial_speed
+
+    @property
+    def first_pose(self) -> Start:
+        """Pose at the start."""
+        x, y, yaw = self.initial_pose
+        articulation = tuple(self.initial_articulation)
+        return Start(x, y, yaw, articulation if any(articulation) else ())
 
     @property
     def clock(self) -> bool:

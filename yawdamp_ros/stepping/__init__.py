@@ -6,6 +6,7 @@ from yawdamp_ros.stepping.motion import Motion
 from yawdamp_ros.stepping.pacer import Pacer
 from yawdamp_ros.stepping.response import Response, linear_response
 from yawdamp_ros.stepping.sample import AppliedInput, Command, Event, Sample
+from yawdamp_ros.stepping.start import Start
 from yawdamp_ros.stepping.steering_actuator import SteeringActuator
 from yawdamp_ros.stepping.steering_input import SteeringInput
 from yawdamp_ros.stepping.stepper import Stepper
@@ -21,6 +22,7 @@ __all__ = [
     "Pacer",
     "Response",
     "Sample",
+    "Start",
     "SteeringActuator",
     "SteeringInput",
     "Stepper",

@@ -6,6 +6,7 @@ from typing import Any, Protocol
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
+from yawdamp_ros.stepping.start import Start
 from yawdamp_ros.vehicle import Vehicle
 
 
@@ -48,6 +49,15 @@ class Motion(Protocol):
     @property
     def steering_angle(self) -> float:
         """Road-wheel steer angle in force from this instant on, rad."""
+
+    def begin(self, start: Start) -> None:
+        """Stand at a start, to which a reset returns; at step 0, before anything is sampled.
+
+        Raises
+        ------
+        SteppingError
+            If the model cannot begin so.
+        """
 
     def apply(self, applied: AppliedInput) -> None:
         """Let an input act from this instant on."""

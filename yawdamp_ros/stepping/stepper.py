@@ -15,9 +15,11 @@ from yawdamp_ros.dynamics.kinematics import (
     coupled_positions,
     coupled_velocities,
 )
+from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.propagation import Propagation, outputs_of
 from yawdamp_ros.stepping.propagators import Propagators
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
+from yawdamp_ros.stepping.start import Start
 from yawdamp_ros.stepping.yaw import Yaw, YawParts
 
 KNOWN_SPEEDS = 4
@@ -68,6 +70,7 @@ class Stepper:
         self._model = model
         self._motion = Propagation(self._at_speed(model.speed))
         self._yaw = Yaw()  # of the lead unit at the start of the block
+        self._start = Start()
         self._position = 0.0j
         self._velocity = complex(model.speed)
 
@@ -109,13 +112,27 @@ class Stepper:
             self._set_ground_velocity()
             self._note("speed", speed)
 
+    def begin(self, start: Start) -> None:
+        """See `Motion`; a linear model begins straight."""
+        if any(start.articulation):
+            message = (
+                f"initial_articulation: {list(start.articulation)}: a linear model begins straight; expected "
+                "0, or model nonlinear"
+            )
+            raise SteppingError(message)
+        self._start = start
+        self._stand_at_start()
+
     def reset(self) -> None:
-        """Return to rest at the origin; time and steering stay as they are."""
-        self._motion.stand(np.zeros(2 * self._units))
-        self._yaw.set(0.0, 0.0)
-        self._position = 0.0j
-        self._set_ground_velocity()
+        """Return to rest at the start; time and steering stay as they are."""
+        self._stand_at_start()
         self._note("reset", 0.0)
+
+    def _stand_at_start(self) -> None:
+        self._motion.stand(np.zeros(2 * self._units))
+        self._yaw.set(self._start.yaw, 0.0)
+        self._position = complex(self._start.x, self._start.y)
+        self._set_ground_velocity()
 
     def snapshot(self) -> Mapping[str, Any]:
         """State sufficient for `restore`; a block starts here for both."""
@@ -130,6 +147,7 @@ class Stepper:
             "yaw_remainder": self._yaw.parts.remainder,
             "x": self._position.real,
             "y": self._position.imag,
+            "start": list(self._start[:3]),
             "sampled": not self._inputs,
         }
 
@@ -140,6 +158,7 @@ class Stepper:
         self._motion.stand(np.array(snapshot["state"]))
         self._yaw.set(snapshot["yaw"], snapshot["yaw_remainder"])
         self._motion.steering_angle = snapshot["steering_angle"]
+        self._start = Start(*snapshot.get("start", ()))
         self._position = complex(snapshot["x"], snapshot["y"])
         self._set_ground_velocity()
         self._inputs = []
