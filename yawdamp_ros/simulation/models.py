@@ -62,6 +62,6 @@ def make_motion(
         message = f"model: {model!r}: expected one of {', '.join(MODELS)}"
         raise SimulationError(message)
     motion = MODELS[model](vehicle, speed, step_size)
-    if start is not None:
+    if start not in {None, Start()}:
         motion.begin(start)
     return motion
