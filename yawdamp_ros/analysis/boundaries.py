@@ -6,7 +6,6 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import brentq
 
 from yawdamp_ros.analysis.answers import Answers
 from yawdamp_ros.analysis.eigenmodes import rightmost
@@ -62,6 +61,8 @@ def find_boundaries(
     tuple of Boundary
         In the order of the scan.
     """
+    from scipy.optimize import brentq  # noqa: PLC0415 - it loads longer than most commands run
+
     found = []
     for (start, at_start), (end, at_end) in pairwise(scan):
         if (at_start.real > 0.0) != (at_end.real > 0.0):

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import schur
 
 from yawdamp_ros.analysis.eigenmodes import ComplexArray
 from yawdamp_ros.dynamics import LinearModel
@@ -39,6 +38,8 @@ class FrequencyResponse:
             Of a stack of vehicles.
         outputs : tuple of int
         """
+        from scipy.linalg import schur  # noqa: PLC0415 - what asks for no gain does not wait for it
+
         triangles = np.empty(model.state_matrix.shape, dtype=np.complex128)
         turns = np.empty_like(triangles)
         for index, matrix in enumerate(model.state_matrix):

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eigvals
 
 from yawdamp_ros.analysis.eigenmodes import ComplexArray
 from yawdamp_ros.analysis.errors import AnalysisError
@@ -45,6 +44,8 @@ class TransferFunction:
 
         They are the finite generalised eigenvalues of the Rosenbrock matrix [[A, B], [C, D]].
         """
+        from scipy.linalg import eigvals  # noqa: PLC0415 - the rest does without
+
         size = len(self.state_matrix)
         rosenbrock = np.block(
             [

@@ -5,12 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from scipy.linalg import expm
 
 from yawdamp_ros.analysis.answers import Answers, stack_of
 from yawdamp_ros.analysis.eigenmodes import ComplexArray, damping_ratios
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.motion import free_motion
+from yawdamp_ros.analysis.motion import free_motion, stacked_exponential
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
@@ -225,7 +224,7 @@ def pulse_decay(model: LinearModel) -> FloatArray:
     held = np.zeros((size + 1, size + 1))
     held[:size, :size] = model.state_matrix
     held[:size, -1] = model.input_matrix
-    start = np.asarray(expm(held * PULSE_WIDTH), dtype=np.float64)[:size, -1]
+    start = stacked_exponential(PULSE_WIDTH * held[np.newaxis])[0, :size, -1]
     eigenvalues = np.linalg.eigvals(model.state_matrix)
     step = 1.0 / (_STEPS_PER_RADIAN * float(np.abs(eigenvalues).max()))
     growing = float(eigenvalues.real.max())

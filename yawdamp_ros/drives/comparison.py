@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import coherence, correlate, welch
 
 from yawdamp_ros.drives.channel import QUANTITIES, quantity_of
 from yawdamp_ros.drives.drive import Drive
@@ -171,6 +170,8 @@ def compare(
 
 def excitation(drive: Drive, speed: float) -> Excitation:
     """How much a drive asks of a vehicle whose own speed in m/s is followed where the drive has none."""
+    from scipy.signal import welch  # noqa: PLC0415 - it loads longer than most commands run
+
     steering = drive["steering"]
     times = np.arange(0.0, max(drive.duration, 0.02), 0.01)
     angles = steering.held(times)
@@ -208,6 +209,8 @@ def _lag(measured: FloatArray, simulated: FloatArray, step: float) -> float:
     about = measured - measured.mean(), simulated - simulated.mean()
     if step <= 0.0 or not (about[0].any() and about[1].any()):
         return float("nan")
+    from scipy.signal import correlate  # noqa: PLC0415 - it loads longer than most commands run
+
     correlation = correlate(*about, method="fft")
     middle = len(simulated) - 1
     reach = min(max(round(LONGEST_LAG / step), 1), middle - 1)
@@ -223,5 +226,7 @@ def _coherence(measured: FloatArray, simulated: FloatArray, step: float) -> tupl
     length = min(round(WINDOW / step), len(measured) // 4) if step > 0.0 else 0
     if length < FEWEST_SAMPLES or not (np.ptp(measured) and np.ptp(simulated)):
         return np.zeros(0), np.zeros(0)
+    from scipy.signal import coherence  # noqa: PLC0415 - it loads longer than most commands run
+
     frequencies, coherent = coherence(simulated, measured, 1.0 / step, nperseg=length)
     return np.asarray(frequencies), np.asarray(coherent)

@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from yawdamp_ros.drives.noise_model import NoiseModel, fitted, independent
 from yawdamp_ros.drives.parameters import Parameter
@@ -75,6 +74,8 @@ def maximise(
     spreads : sequence of float
         Standard deviation that is expected of each series' offset.
     """
+    from scipy.optimize import least_squares  # noqa: PLC0415 - it loads longer than most commands run
+
     problem = _Problem(parameters, outputs, times, series, np.array([*(WIDE for _ in parameters), *spreads]))
     at = problem.start()
     noises = [independent(each) for each in problem.residuals(at)]

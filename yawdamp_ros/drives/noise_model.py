@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import solve_triangular
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
@@ -38,6 +37,8 @@ class NoiseModel(NamedTuple):
         -------
         ndarray, shape (k - p, m, ...)
         """
+        from scipy.linalg import solve_triangular  # noqa: PLC0415 - it loads longer than most commands run
+
         count, size, *others = residuals.shape
         order, columns = self.order, int(np.prod(others, dtype=int))
         # One row a channel, so that a lag is a shift of columns, and each product a large one.

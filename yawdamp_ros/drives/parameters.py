@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import lfilter
 
 from yawdamp_ros.drives.errors import DriveError
 from yawdamp_ros.drives.prediction import Inputs
@@ -123,6 +122,8 @@ def steered(inputs: Inputs, values: Mapping[str, float]) -> Inputs:
     instant, mean = (inputs.steering - offset) / ratio, (inputs.mean_steering - offset) / ratio
     if not lag:
         return inputs._replace(steering=instant, mean_steering=mean)
+    from scipy.signal import lfilter  # noqa: PLC0415 - it loads longer than most commands run
+
     step = float(inputs.times[1] - inputs.times[0])
     kept = math.exp(-step / lag)
     # The angle at each instant, and its mean until the next: the lag's exact answer to a held demand.

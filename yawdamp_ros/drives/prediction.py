@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import expm
 
 from yawdamp_ros.drives.drive import Drive
 from yawdamp_ros.dynamics import linear_model
@@ -157,6 +156,8 @@ def _basis(speeds: FloatArray) -> FloatArray:
 
 def _steps(family: _Family, step: float, speeds: FloatArray) -> FloatArray:
     """State after a step by state and held steering, each at its own speed, shape (k, 2 n, 2 n + 1)."""
+    from scipy.linalg import expm  # noqa: PLC0415 - it loads longer than most commands run
+
     low, high = float(speeds.min()), float(speeds.max())
     nodes = np.geomspace(low, high, max(math.ceil(math.log(high / low) / math.log(SPEED_RATIO)), 1) + 1)
     rates = family.at(nodes)
