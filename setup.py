@@ -57,6 +57,7 @@ setup(
         "bags": ["rosbags"],  # reads rosbag2 recordings with sqlite3 storage
         "cluster": ["distributed>=2026.8.0"],  # sweeps on other machines
         "tables": ["openpyxl>=3.1.2"],  # assessments as spreadsheets
+        "parquet": ["pyarrow>=26.0.1"],  # sweeps as columns that other tools read fast
         "pandas": ["pandas>=2.1.4"],  # runs as tables
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.

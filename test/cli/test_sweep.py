@@ -105,19 +105,6 @@ def test_processes_give_what_one_gives(tmp_path: Path) -> None:
     np.testing.assert_allclose(rows(tmp_path / "1.csv"), rows(tmp_path / "2.csv"), rtol=1e-12)
 
 
-def test_cluster_gives_what_one_process_gives(tmp_path: Path) -> None:
-    distributed = pytest.importorskip("distributed")
-    arguments = ["--random", "120", "--range", "units.1.mass=5000:30000", "--measure", "steady_offtracking"]
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=False, protocol="tcp://", host="127.0.0.1",
-        dashboard_address=None,
-    ) as cluster:  # fmt: skip
-        there = ["--scheduler", cluster.scheduler_address, "--output", str(tmp_path / "there.csv")]
-        assert run(["sweep", *arguments, *there]) == 0
-    assert run(["sweep", *arguments, "--output", str(tmp_path / "here.csv")]) == 0
-    np.testing.assert_allclose(rows(tmp_path / "there.csv"), rows(tmp_path / "here.csv"), rtol=1e-12)
-
-
 def long_sweep(points: int, output: Path) -> list[str]:
     options = ["--range", "units.1.mass=5000:30000", "--measure", "critical_speed", "--jobs", "2"]
     command = [sys.executable, "-m", "yawdamp_ros", "sweep", "--random", str(points), *options]
@@ -212,7 +199,10 @@ def test_file_of_another_sweep_is_refused(tmp_path: Path, capsys: pytest.Capture
         (["--random", "5", "--range", "speed=5:35", "--seed", "-1"], "--seed: -1: expected a whole number"),
         (["--vary", "speed=5:35:3", "--jobs", "0"], "--jobs: 0: expected a whole number, 1 or more"),
         (["--vary", "speed=5:35:3", "--measure", "comfort"], "argument --measure: invalid choice: 'comfort'"),
-        (["--vary", "speed=5:35:3", "--output", "x.txt"], "--output: x.txt: expected a name ending in .csv"),
+        (
+            ["--vary", "speed=5:35:3", "--output", "x.txt"],
+            "--output: x.txt: expected a name ending in .csv or",
+        ),
         (["--vary", "speed=5:35:3", "--plot", "x.gif"], "--plot: x.gif: expected a name ending in .png"),
         (["--vehicle", "a_double", "--model", "published", "--vary", "speed=5:9:2"], "a_double has 4 units"),
         (["--vary", "speed=5:35:3", "--scheduler", "nowhere"], "--scheduler: nowhere: cannot be reached"),
@@ -236,6 +226,14 @@ def test_without_dask_the_error_names_the_extra(
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert run(["sweep", "--vary", "speed=5:35:3", "--scheduler", "tcp://127.0.0.1:1"]) == 2
     assert "pip install 'yawdamp_ros[cluster]'" in capsys.readouterr().err
+
+
+def test_without_pyarrow_the_error_names_the_extra(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    assert run(["sweep", "--vary", "speed=5:35:3", "--output", "x.parquet"]) == 2
+    assert "pip install 'yawdamp_ros[parquet]'" in capsys.readouterr().err
 
 
 def test_help_lists_every_measure(capsys: pytest.CaptureFixture[str]) -> None:

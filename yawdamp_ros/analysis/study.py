@@ -1,6 +1,6 @@
 """A measure of many vehicles that differ in a few numbers: what a sweep computes, chunk by chunk."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
@@ -10,6 +10,7 @@ import numpy as np
 from yawdamp_ros.analysis.eigenmodes import ComplexArray, damping_ratios
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.measures import MEASURES, NONLINEAR, NONLINEAR_MEASURES
+from yawdamp_ros.analysis.points import Points
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.vehicle import Vehicle, load_stack, unstacked
@@ -79,7 +80,7 @@ class Study:
         """Whether the work is compiled and runs without Python's lock, side by side in threads."""
         return self.model == NONLINEAR
 
-    def check(self, points: FloatArray) -> None:
+    def check(self, points: Points) -> None:
         """Refuse points that are no valid vehicles, before any work is done.
 
         Raises
@@ -87,7 +88,8 @@ class Study:
         VehicleError, DynamicsError
             As `eigenvalues`.
         """
-        self._stack(points)
+        for start in range(0, len(points), _LARGE_CHUNK):
+            self._stack(points[start : start + _LARGE_CHUNK])
         self.eigenvalues(points[:1])
 
     def eigenvalues(self, points: FloatArray) -> ComplexArray:
@@ -184,32 +186,24 @@ def _eigenvalues(model: LinearModel) -> ComplexArray:
 
 def evaluate_all(
     study: Study,
-    points: FloatArray,
+    points: Points,
     mapped: Callable[[Callable[[FloatArray], FloatArray], Iterable[FloatArray]], Iterable[Any]] = map,
+    start: int = 0,
 ) -> Iterator[FloatArray]:
     """Answers at many points, chunk by chunk and in order.
 
     Parameters
     ----------
     study : Study
-    points : ndarray, shape (k, d)
+    points : Points
     mapped : callable
         Applies a function to every chunk: ``map``, or that method of an executor of `concurrent.futures`.
+    start : int
+        Index of the first point.
 
     Yields
     ------
     ndarray, shape (chunk, len(study.columns))
     """
-    chunks = [points[start : start + study.chunk] for start in range(0, len(points), study.chunk)]
+    chunks = (points[begin : begin + study.chunk] for begin in range(start, len(points), study.chunk))
     yield from mapped(study.evaluate, chunks)
-
-
-def grid(axes: Sequence[Sequence[float]]) -> FloatArray:
-    """Every combination of the values of some axes, the last varying fastest, shape (k, d)."""
-    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
-
-
-def draw(spans: Sequence[tuple[float, float]], count: int, seed: int) -> FloatArray:
-    """Points drawn evenly and independently from ranges, the same for the same seed, shape (count, d)."""
-    lows, highs = np.array(spans).T
-    return np.random.default_rng(seed).uniform(lows, highs, (count, len(spans)))

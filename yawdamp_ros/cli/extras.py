@@ -28,6 +28,7 @@ EXTRAS = MappingProxyType(
         "plotly": Extra("python3-plotly", "pictures"),
         "openpyxl": Extra("python3-openpyxl", "tables"),
         "control": Extra("", "analysis"),
+        "pyarrow": Extra("", "parquet"),
         "distributed": Extra("python3-distributed", "cluster"),
     }
 )

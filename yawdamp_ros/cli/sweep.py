@@ -11,8 +11,9 @@ import numpy as np
 
 from yawdamp_ros.analysis import Variation, find_boundaries, parse_variation
 from yawdamp_ros.analysis.boundaries import Boundary
+from yawdamp_ros.analysis.points import Draws, Grid, Points
 from yawdamp_ros.analysis.stability_map import boundary_segments
-from yawdamp_ros.analysis.study import STABILITY, STUDIED, Study, draw, evaluate_all, grid
+from yawdamp_ros.analysis.study import STABILITY, STUDIED, Study, evaluate_all
 from yawdamp_ros.cli import sweep_report
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
@@ -29,18 +30,20 @@ from yawdamp_ros.cli.options import (
 )
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs.sweep_csv import SweepCsv
+from yawdamp_ros.logs.sweep_file import SweepFile
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.simulation import MODELS
 from yawdamp_ros.vehicle import vehicle_text
 
 MOST_AXES = 2
+PARQUET = ".parquet"
 
 
 class Plan(NamedTuple):
     """What a command line asks for."""
 
     study: Study
-    points: FloatArray
+    points: Points
     definition: dict[str, object]
     axes: tuple[Variation, ...]
 
@@ -82,28 +85,38 @@ def main(argv: Sequence[str]) -> int:
 def _run(plan: Plan, columns: Sequence[str], options: argparse.Namespace) -> FloatArray:
     study, points = plan.study, plan.points
     study.check(points)
+    answers = np.empty((len(points), len(study.columns)))
     with ExitStack() as opened:
-        gathered = [np.empty((0, len(study.columns)))]
-        sink = None
-        if options.output:
-            sink = opened.enter_context(
-                closing(SweepCsv(Path(options.output), plan.definition, points, columns))
-            )
-            gathered = [sink.answers]
-        done = len(gathered[0])
+        done, sink = 0, _sink(plan, columns, options.output)
+        if sink:
+            opened.enter_context(closing(sink))
+            done = len(sink.answers)
+            answers[:done] = sink.answers
         stop = opened.enter_context(StopRequest())
         bar = opened.enter_context(progress_bar("points"))
         task = bar.add_task("sweeping", total=len(points), completed=done)
         chunks = -(-(len(points) - done) // study.chunk)
         mapped = opened.enter_context(mapping(chunks, options.jobs, options.scheduler, threads=study.threads))
-        for answers in evaluate_all(study, points[done:], mapped):
-            gathered.append(answers)
+        for found in evaluate_all(study, points, mapped, done):
+            answers[done : done + len(found)] = found
+            done += len(found)
             if sink:
-                sink.write(answers)
-            bar.advance(task, len(answers))
+                sink.write(found)
+            bar.advance(task, len(found))
             if stop.requested:
                 raise KeyboardInterrupt
-    return np.concatenate(gathered)
+    return answers
+
+
+def _sink(plan: Plan, columns: Sequence[str], output: str | None) -> SweepFile | None:
+    if output is None:
+        return None
+    if output.lower().endswith(PARQUET):
+        # Here and not above: an optional library.
+        from yawdamp_ros.logs.sweep_parquet import SweepParquet  # noqa: PLC0415
+
+        return SweepParquet(Path(output), plan.definition, plan.points, columns)
+    return SweepCsv(Path(output), plan.definition, plan.points, columns)
 
 
 def _plan(options: argparse.Namespace) -> Plan:
@@ -124,10 +137,10 @@ def _plan(options: argparse.Namespace) -> Plan:
         measure=options.measure,
     )
     if axes:
-        points = grid([axis.values for axis in axes])
+        points: Points = Grid([axis.values for axis in axes])
         drawn: dict[str, object] = {"vary": options.vary}
     else:
-        points = draw([span for _, span in spans], options.random, options.seed)
+        points = Draws([span for _, span in spans], options.random, options.seed)
         drawn = {"range": options.range, "random": options.random, "seed": options.seed}
     return Plan(study, points, {**asdict(study), **drawn}, axes)
 
@@ -140,7 +153,9 @@ def _boundaries(plan: Plan, answers: FloatArray) -> tuple[Boundary, ...]:
         rightmost = eigenvalues[np.argmax(eigenvalues.real)]
         return complex(rightmost.real, abs(rightmost.imag))
 
-    scan = [(float(value), complex(real)) for (value,), real in zip(plan.points, answers[:, 0], strict=True)]
+    scan = [
+        (float(value), complex(real)) for (value,), real in zip(plan.points[:], answers[:, 0], strict=True)
+    ]
     return find_boundaries(eigenvalue, scan)
 
 
@@ -171,8 +186,8 @@ def _check(options: argparse.Namespace) -> None:
         f"--seed: {options.seed}: expected a whole number, 0 or more": options.seed < 0,
         f"--jobs: {options.jobs}: expected a whole number, 1 or more": options.jobs is not None
         and options.jobs < 1,
-        f"--output: {options.output}: expected a name ending in .csv": _named_otherwise(
-            options.output, ".csv"
+        f"--output: {options.output}: expected a name ending in .csv or {PARQUET}": _named_otherwise(
+            options.output, ".csv", PARQUET
         ),
         f"--plot: {options.plot}: expected a name ending in .png or .svg": _named_otherwise(
             options.plot, ".png", ".svg"
@@ -185,6 +200,8 @@ def _check(options: argparse.Namespace) -> None:
         require("matplotlib")
     if options.scheduler:
         require("distributed")
+    if options.output and options.output.lower().endswith(PARQUET):
+        require("pyarrow")
 
 
 def _named_otherwise(path: str | None, *suffixes: str) -> bool:
@@ -219,9 +236,10 @@ def _parser() -> argparse.ArgumentParser:
     group.add_argument("--measure", choices=STUDIED, default=STABILITY, metavar="M", help=", ".join(STUDIED))
     group.add_argument(
         "--output",
-        metavar="FILE.csv",
-        help="a row a point, written as they come. Interrupted, the same command goes on from it: "
-        "FILE.csv.json says which sweep it holds, and a file of another one is refused",
+        metavar="FILE",
+        help="CSV file, or directory of Parquet files by a name ending in .parquet: a row a point, written "
+        "as they come. Interrupted, the same command goes on from it: FILE.json says which sweep it "
+        "holds, and that of another one is refused",
     )
     group.add_argument(
         "--plot", metavar="FILE", help="curve, map or histogram as PNG or SVG, by the file's name"

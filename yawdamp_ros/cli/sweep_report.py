@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yawdamp_ros.analysis import MEASURES, Boundary, Variation
+from yawdamp_ros.analysis.points import Points
 from yawdamp_ros.analysis.study import Study
 from yawdamp_ros.cli.boundary_text import boundary_record, boundary_text
 from yawdamp_ros.cli.number import number
@@ -29,7 +30,7 @@ class Sweep:
     study : Study
     axes : tuple of Variation
         None for vehicles drawn at random.
-    points : ndarray, shape (k, d)
+    points : Points
     answers : ndarray, shape (k, a)
     columns : tuple of str
         Of points, then of answers.
@@ -37,7 +38,7 @@ class Sweep:
 
     study: Study
     axes: tuple[Variation, ...]
-    points: FloatArray
+    points: Points
     answers: FloatArray
     columns: tuple[str, ...]
 
@@ -55,7 +56,7 @@ class Sweep:
 
 def print_json(sweep: Sweep, boundaries: Sequence[Boundary], segments: FloatArray) -> None:
     """Print a sweep as one JSON object; null is what has no value."""
-    rows = np.hstack([sweep.points, sweep.answers]).tolist()
+    rows = np.hstack([sweep.points[:], sweep.answers]).tolist()
     report = {
         "vehicle": sweep.study.source,
         "model": sweep.study.model,
@@ -97,7 +98,7 @@ def _print_curve(sweep: Sweep) -> None:
         (sweep.axes[0].label, *sweep.study.columns),
         [
             tuple(number(value, ".6g") for value in (*point, *row))
-            for point, row in zip(sweep.points, sweep.answers, strict=True)
+            for point, row in zip(sweep.points[:], sweep.answers, strict=True)
         ],
     )
 

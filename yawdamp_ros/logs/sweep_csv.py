@@ -1,26 +1,21 @@
-"""Sweeps as CSV files that an interrupted sweep goes on from.
+"""Sweeps as CSV files; a row that broke off is dropped when the sweep goes on."""
 
-Beside the file lies another, its name with ``.json`` added, that says what the sweep is: vehicle file,
-changes, model, keys, points and measure. A sweep goes on from a file only where all of that is the same and
-the points in the rows are its own; rows are written in the order of the points, so that those missing are
-the last ones. A row that broke off is dropped.
-"""
-
-import json
+import itertools
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
+from yawdamp_ros.analysis.points import Points
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.files import read_text
-from yawdamp_ros.logs.errors import LogError
-
-LARGEST_DESCRIPTION = 1 << 22
-"""Characters of what says which sweep a file holds, a vehicle file among it."""
+from yawdamp_ros.files import regular
+from yawdamp_ros.logs.sweep_file import another, describe, unusable
 
 LONGEST_VALUE = 25
 """Characters of a number and what follows it."""
+ROWS_AT_ONCE = 10_000
+"""Rows that are read at once."""
 
 
 class SweepCsv:
@@ -32,7 +27,8 @@ class SweepCsv:
         Gone on from where it holds the beginning of the same sweep, else written anew.
     definition : mapping
         All that makes the sweep what it is, of what JSON can hold.
-    points : ndarray, shape (k, d)
+    points : Points
+        The k points, of d coordinates each.
     columns : sequence of str
         Names of the coordinates of a point, then of the answers.
 
@@ -48,25 +44,22 @@ class SweepCsv:
     """
 
     def __init__(
-        self, path: Path, definition: Mapping[str, object], points: FloatArray, columns: Sequence[str]
+        self, path: Path, definition: Mapping[str, object], points: Points, columns: Sequence[str]
     ) -> None:
         self._path = path
         self._points = points
-        self._columns = list(columns)
-        described = json.dumps(definition, indent=2) + "\n"
-        description = path.with_name(f"{path.name}.json")
+        # Keys that vary together are one column, whose name holds commas.
+        header = ",".join(f'"{name}"' if "," in name else name for name in columns) + "\n"
+        self._header = header.encode()
+        self._width = len(columns)
+        self.answers = np.empty((0, self._width - points[:1].shape[1]))
         try:
-            if path.exists():
-                self._check(description, described)
-                self.answers = self._read()
-                self._file = path.open("a", encoding="utf-8", newline="")
-            else:
-                description.write_text(described, encoding="utf-8")
-                self.answers = np.empty((0, len(columns) - points.shape[1]))
-                self._file = path.open("w", encoding="utf-8", newline="")
-                self._file.write(self._header())
+            known = describe(path, definition) and self._read()
+            self._file = path.open("a" if known else "w", encoding="utf-8", newline="")
+            if not known:
+                self._file.write(header)
         except (OSError, UnicodeDecodeError) as error:
-            raise self._unusable(error) from error
+            raise unusable(path, error) from error
         self._written = len(self.answers)
 
     def write(self, answers: FloatArray) -> None:
@@ -79,7 +72,7 @@ class SweepCsv:
             )
             self._file.flush()
         except OSError as error:
-            raise self._unusable(error) from error
+            raise unusable(self._path, error) from error
         self._written += len(answers)
 
     def close(self) -> None:
@@ -87,44 +80,41 @@ class SweepCsv:
         try:
             self._file.close()
         except OSError as error:
-            raise self._unusable(error) from error
+            raise unusable(self._path, error) from error
 
-    def _check(self, description: Path, described: str) -> None:
-        if not description.exists() or read_text(description, LARGEST_DESCRIPTION) != described:
-            raise self._other()
+    def _read(self) -> bool:
+        """Take the answers from the file, less a last row that broke off; False without a header."""
+        with regular(self._path).open("r+b") as file:
+            header = file.readline(len(self._header))
+            if header != self._header:
+                if not self._header.startswith(header) or file.read(1):
+                    raise another(self._path)
+                return False
+            end, found, longest = len(header), [self.answers], LONGEST_VALUE * self._width
+            while rows := list(
+                itertools.takewhile(
+                    lambda row: row.endswith(b"\n"),
+                    itertools.islice(iter(lambda: file.readline(longest), b""), ROWS_AT_ONCE),
+                )
+            ):
+                found.append(self._answers(rows, sum(map(len, found))))
+                end += sum(map(len, rows))
+            left = file.seek(0, os.SEEK_END) - end
+            if left >= longest:  # no row that broke off is as long
+                raise another(self._path)
+            if left:
+                file.truncate(end)
+        self.answers = np.concatenate(found)
+        return True
 
-    def _read(self) -> FloatArray:
-        """Answers in the file, which loses a last row that broke off."""
-        text = read_text(self._path, LONGEST_VALUE * (1 + self._points.shape[0]) * len(self._header()))
-        whole = text[: text.rfind("\n") + 1]
-        header, *rows = whole.split("\n")[:-1] or [""]
-        if not whole:
-            if not self._header().startswith(text):
-                raise self._other()
-            self._path.write_text(self._header(), encoding="utf-8")
-            return np.empty((0, len(self._columns) - self._points.shape[1]))
+    def _answers(self, rows: Sequence[bytes], start: int) -> FloatArray:
+        """Answers in rows of the file, which are of the points from a start on."""
+        points = self._points[start : start + len(rows)]
         try:
-            values = np.array([list(map(float, row.split(","))) for row in rows], dtype=np.float64)
-            values = values.reshape(len(rows), len(self._columns))
+            values = np.array([[*map(float, row.split(b","))] for row in rows], dtype=np.float64)
+            values = values.reshape(len(rows), self._width)
         except ValueError as error:
-            raise self._other() from error
-        split = self._points.shape[1]
-        if header + "\n" != self._header() or not np.array_equal(
-            values[:, :split], self._points[: len(values)]
-        ):
-            raise self._other()
-        if len(whole) < len(text):
-            self._path.write_text(whole, encoding="utf-8")
-        return values[:, split:]
-
-    def _header(self) -> str:
-        # Keys that vary together are one column, whose name holds commas.
-        return ",".join(f'"{name}"' if "," in name else name for name in self._columns) + "\n"
-
-    def _other(self) -> LogError:
-        return LogError(
-            self._path, "is there and is not of this sweep; expected a new name, or the same sweep"
-        )
-
-    def _unusable(self, error: OSError | UnicodeDecodeError) -> LogError:
-        return LogError(self._path, f"cannot be used: {getattr(error, 'strerror', None) or error}")
+            raise another(self._path) from error
+        if not np.array_equal(values[:, : points.shape[1]], points):
+            raise another(self._path)
+        return values[:, points.shape[1] :]
