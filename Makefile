@@ -43,7 +43,7 @@ test-fast: setup  ## run the tests that need no ROS graph
 soak: setup  ## run the long tests, about half an hour; each says what it saw
 	@$(BIN)/python -m pytest test/soak
 
-bench: setup  ## measure the ratios of the manual's performance page, about a quarter of an hour on an idle machine
+bench: setup  ## measure the ratios of the manual's performance page, about half an hour on an idle machine
 	@$(BIN)/python bench/run.py
 
 bench-memory: setup  ## measure the node's memory over ten minutes at 1 kHz

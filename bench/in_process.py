@@ -1,15 +1,19 @@
 """What runs within one process, timed by pyperf, which repeats each in several processes."""
 
 import itertools
+from collections.abc import Callable
 
 import control
 import numpy as np
 import pyperf
+from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
-from yawdamp_ros.analysis.study import Study, draw, evaluate_all
+from yawdamp_ros.analysis.points import Draws
+from yawdamp_ros.analysis.study import Study, evaluate_all
 from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.dynamics.consistent import state_space
+from yawdamp_ros.nonlinear import NonlinearDynamics
 from yawdamp_ros.stepping import Stepper, TimeGrid
 from yawdamp_ros.stepping.response import linear_response, respond
 from yawdamp_ros.vehicle import load_stack, load_vehicle, vehicle_text
@@ -53,19 +57,54 @@ def step(runner: pyperf.Runner) -> None:
     runner.bench_func("step", lambda: stepper.advance(10), inner_loops=10)
     runner.bench_func("sample", stepper.sample)
     # Speeds that it never had before.
-    speeds = itertools.count(10.0, 1e-6)
+    unknown = itertools.count(10.0, 1e-6)
 
     def change() -> None:
-        stepper.change_speed(next(speeds))
+        stepper.change_speed(next(unknown))
 
     runner.bench_func("change of speed", change)
+
+
+def speeds(runner: pyperf.Runner) -> None:
+    """15 s of the interlink at 1 kHz, sampled at 100 Hz, at one speed and at a new one in every sample."""
+    model = linear_model(load_vehicle("interlink"))
+    new = itertools.count(10.0, 1e-6)
+
+    def drive(speed: Callable[[], float | None]) -> None:
+        stepper = Stepper(model, STEP)
+        stepper.steer(0.03)
+        for _ in range(1500):
+            if (changed := speed()) is not None:
+                stepper.change_speed(changed)
+            stepper.advance(10)
+            stepper.sample()
+
+    runner.bench_func("constant speed", lambda: drive(lambda: None))
+    runner.bench_func("changing speed", lambda: drive(lambda: next(new)))
+
+
+def nonlinear(runner: pyperf.Runner) -> None:
+    """Steps of the nonlinear interlink, and SciPy's integrator on the same equations."""
+    dynamics = NonlinearDynamics(load_vehicle("interlink"))
+    start, inputs = dynamics.initial_state(22.0), dynamics.inputs(0.02, speed=22.0)
+    runner.bench_func(
+        "nonlinear step", lambda: dynamics.steps(start, inputs, STEP, 2000, 2000), inner_loops=2000
+    )
+    runner.bench_func("nonlinear steps", lambda: dynamics.steps(start, inputs, STEP, 2000, 2000))
+
+    def integrated() -> None:
+        solve_ivp(
+            lambda _, state: dynamics.derivatives(state, inputs), (0.0, 2.0), start, rtol=1e-6, atol=1e-6
+        )
+
+    runner.bench_func("solve_ivp", integrated)
 
 
 def eigenvalues(runner: pyperf.Runner) -> None:
     """Stability of 100,000 interlinks."""
     text = vehicle_text("interlink")
     study = Study(text, "interlink", (), "consistent", tuple((key,) for key in SPANS))
-    points = draw(list(SPANS.values()), POINTS, seed=0)
+    points = Draws(list(SPANS.values()), POINTS, seed=0)[:]
     stack = load_stack(text, "interlink", (), dict(zip(SPANS, points.T, strict=True)))
     matrices, _ = state_space(stack, stack.speed)
     runner.bench_func("eigvals", lambda: np.linalg.eigvals(matrices))
@@ -77,6 +116,8 @@ def main() -> None:
     runner = pyperf.Runner(processes=1, values=3, warmups=1)
     offline(runner)
     step(runner)
+    speeds(runner)
+    nonlinear(runner)
     eigenvalues(runner)
 
 
