@@ -1,5 +1,7 @@
 """Static rollover thresholds, by the static roll of the nonlinear model."""
 
+from functools import lru_cache
+
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.nonlinear import NonlinearError
 from yawdamp_ros.nonlinear.static_roll import RollGroup, static_rollover
@@ -53,6 +55,7 @@ def rear_static_rollover_threshold(vehicle: Vehicle) -> float:
     return _groups(vehicle)[-1].threshold
 
 
+@lru_cache(maxsize=256)
 def _groups(vehicle: Vehicle) -> tuple[RollGroup, ...]:
     try:
         return static_rollover(vehicle)

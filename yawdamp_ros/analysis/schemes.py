@@ -1,7 +1,7 @@
 """Schemes of levels: data files that say which measures count, and against which limits."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -142,13 +142,15 @@ def builtin_schemes() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _directory().glob("*.yaml")))
 
 
-def load_scheme(scheme: str | Path) -> Scheme:
+def load_scheme(scheme: str | Path, only: str | None = None) -> Scheme:
     """Read a scheme by builtin name or from a file.
 
     Parameters
     ----------
     scheme : str or Path
         One of `builtin_schemes`, or the path of a YAML file.
+    only : str, optional
+        Names of its measures that count, separated by commas; all unless given.
 
     Returns
     -------
@@ -177,7 +179,21 @@ def load_scheme(scheme: str | Path) -> Scheme:
     except ValueError as error:  # no UTF-8 or no YAML
         message = f"{source}: {error}"
         raise AnalysisError(message) from error
-    return _build(data, source)
+    built = _build(data, source)
+    return built if only is None else _restricted(built, only.split(","))
+
+
+def _restricted(scheme: Scheme, names: list[str]) -> Scheme:
+    """Scheme with some of its measures, and those that limits of these are multiplied by."""
+    for name in names:
+        if name not in scheme.measures:
+            message = f"measures: {name}: {scheme.name}: expected one of {', '.join(scheme.measures)}"
+            raise AnalysisError(message)
+    kept = tuple(each for each in scheme.requirements if each.measure in names)
+    needed = {*names, *(each.times for each in kept)}
+    return replace(
+        scheme, measures=tuple(name for name in scheme.measures if name in needed), requirements=kept
+    )
 
 
 def _build(data: dict[str, Any], source: str) -> Scheme:

@@ -3,27 +3,33 @@
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from yawdamp_ros.analysis.eigenmodes import ComplexArray, damping_ratios
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.measures import MEASURES, NONLINEAR, NONLINEAR_MEASURES
+from yawdamp_ros.analysis.measures import (
+    ALL_MEASURES,
+    MEASURES,
+    NONLINEAR,
+    NONLINEAR_MEASURES,
+    VEHICLE_MEASURES,
+)
 from yawdamp_ros.analysis.points import Points
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.vehicle import Vehicle, load_stack, unstacked
 
 STABILITY = "stability"
-STUDIED = (STABILITY, *MEASURES)
+STUDIED = (STABILITY, *ALL_MEASURES)
 """What a study may ask for: stability alone, or a measure beside it."""
 
 LARGEST_REAL_PART = "largest_real_part"
 """Column of the largest real part of the eigenvalues, in 1/s; below 0 the vehicle is stable."""
 
 _EIGENVALUES = (STABILITY, "least_damping_ratio")
-_LARGE_CHUNK, _CHUNK, _FEW = 25_000, 500, 5
+_LARGE_CHUNK, _CHUNK, _SOME, _FEW = 25_000, 500, 100, 5
 
 
 @dataclass(frozen=True)
@@ -58,7 +64,7 @@ class Study:
         if self.measure not in STUDIED:
             message = f"measure: {self.measure!r}: expected one of {', '.join(STUDIED)}"
             raise AnalysisError(message)
-        if self.model == NONLINEAR and self.measure not in NONLINEAR_MEASURES:
+        if self.model == NONLINEAR and self.measure not in {*NONLINEAR_MEASURES, *VEHICLE_MEASURES}:
             known = ", ".join(NONLINEAR_MEASURES)
             message = f"measure: {self.measure!r}: the nonlinear model has {known}"
             raise AnalysisError(message)
@@ -73,6 +79,8 @@ class Study:
         """Points that are worth a message to another process."""
         if self.model == NONLINEAR:
             return _FEW
+        if self.measure in VEHICLE_MEASURES:
+            return _SOME
         return _LARGE_CHUNK if self.measure in _EIGENVALUES else _CHUNK
 
     @property
@@ -131,7 +139,9 @@ class Study:
         stack = self._stack(points)
         eigenvalues = _eigenvalues(self._model(stack, len(points), None))
         found = [eigenvalues.real.max(axis=1)]
-        if self.model == NONLINEAR:
+        if self.measure in VEHICLE_MEASURES:
+            found.append(self._one_by_one(stack, len(points)))
+        elif self.model == NONLINEAR:
             found.append(self._nonlinear(stack, len(points)))
         elif self.measure in _EIGENVALUES[1:]:
             found.append(damping_ratios(eigenvalues).min(axis=1))
@@ -146,6 +156,17 @@ class Study:
         return any("speed" in keys for keys in self.keys) or any(
             override.startswith("speed=") for override in self.overrides
         )
+
+    def _one_by_one(self, stack: Vehicle, count: int) -> FloatArray:
+        """The measure of each of a stack; NaN where there is none."""
+        measure, values = VEHICLE_MEASURES[self.measure], np.full(count, np.nan)
+        for index in range(count):
+            vehicle = unstacked(stack, index)
+            speed = measure.speed_for(vehicle, vehicle.speed if self._speed_given else None)
+            with suppress(AnalysisError):
+                value = measure.value_of(vehicle, speed)
+                values[index] = np.nan if value is None else value
+        return values
 
     def _nonlinear(self, stack: Vehicle, count: int) -> FloatArray:
         """The measure of each of a stack by the nonlinear model; NaN where it ends in a rollover."""
@@ -184,8 +205,19 @@ def _eigenvalues(model: LinearModel) -> ComplexArray:
     return np.asarray(np.linalg.eigvals(model.state_matrix), dtype=np.complex128)
 
 
+class Evaluated(Protocol):
+    """What `evaluate_all` asks: a study of one measure or of several."""
+
+    @property
+    def chunk(self) -> int:
+        """Points that are worth a message to another process."""
+
+    def evaluate(self, points: FloatArray) -> FloatArray:
+        """Answers at many points."""
+
+
 def evaluate_all(
-    study: Study,
+    study: Evaluated,
     points: Points,
     mapped: Callable[[Callable[[FloatArray], FloatArray], Iterable[FloatArray]], Iterable[Any]] = map,
     start: int = 0,
@@ -194,7 +226,7 @@ def evaluate_all(
 
     Parameters
     ----------
-    study : Study
+    study : Study or SchemeStudy
     points : Points
     mapped : callable
         Applies a function to every chunk: ``map``, or that method of an executor of `concurrent.futures`.
@@ -203,7 +235,8 @@ def evaluate_all(
 
     Yields
     ------
-    ndarray, shape (chunk, len(study.columns))
+    ndarray, shape (chunk, c)
+        As the study's `evaluate` gives them.
     """
     chunks = (points[begin : begin + study.chunk] for begin in range(start, len(points), study.chunk))
     yield from mapped(study.evaluate, chunks)

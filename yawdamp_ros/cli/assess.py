@@ -6,7 +6,15 @@ from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
-from yawdamp_ros.analysis import Assessment, Finding, assess, builtin_schemes, failed, load_scheme
+from yawdamp_ros.analysis import (
+    Assessment,
+    Finding,
+    Scheme,
+    assess,
+    builtin_schemes,
+    failed,
+    load_scheme,
+)
 from yawdamp_ros.analysis.assessment import differences
 from yawdamp_ros.analysis.engineering import SI, SYSTEMS
 from yawdamp_ros.analysis.measures import NONLINEAR
@@ -28,7 +36,27 @@ def main(argv: Sequence[str]) -> int:
     _check(options)
     if options.differences:
         return _differences(options)
-    assessments = [_assessed(options, name) for name in options.vehicle or [None]]
+    scheme = load_scheme(options.scheme, options.measures)
+    if options.random is not None:
+        return _many(options, scheme)
+    assessments = [_assessed(options, scheme, name) for name in options.vehicle or [None]]
+    _write_files(options, assessments)
+    if options.format == "json":
+        assess_report.print_json(assessments)
+    elif options.format == "csv":
+        assess_report.print_csv(assessments, options.units)
+    else:
+        if len(assessments) > 1:
+            assess_report.print_side_by_side(assessments, options.units)
+        else:
+            assess_report.print_text(assessments[0], options.units)
+        if options.definitions:
+            assess_report.print_definitions(assessments[0])
+    return 1 if any(failed(one.findings) for one in assessments) else 0
+
+
+def _write_files(options: argparse.Namespace, assessments: Sequence[Assessment]) -> None:
+    """Write page, print and spreadsheet, as far as they are asked for."""
     if options.html or options.pdf:
         # Here and not above: what the page needs takes longer to load than most assessments to run.
         from yawdamp_ros.pictures.assessment_page import Heading, assessment_page  # noqa: PLC0415
@@ -46,26 +74,28 @@ def main(argv: Sequence[str]) -> int:
         from yawdamp_ros.cli.workbook import save_workbook  # noqa: PLC0415
 
         save_workbook(assess_report.table(assessments, options.units), options.xlsx)
-    if options.format == "json":
-        assess_report.print_json(assessments)
-    elif options.format == "csv":
-        assess_report.print_csv(assessments, options.units)
-    else:
-        if len(assessments) > 1:
-            assess_report.print_side_by_side(assessments, options.units)
-        else:
-            assess_report.print_text(assessments[0], options.units)
-        if options.definitions:
-            assess_report.print_definitions(assessments[0])
-    return 1 if any(failed(one.findings) for one in assessments) else 0
 
 
-def _assessed(options: argparse.Namespace, name: str | None) -> Assessment:
+def _assessed(options: argparse.Namespace, scheme: Scheme, name: str | None) -> Assessment:
     vehicle = chosen_vehicle(argparse.Namespace(**{**vars(options), "vehicle": name}))
     model = options.model or DEFAULT_MODEL
-    scheme = load_scheme(options.scheme)
     findings = assess(vehicle, model, options.speed, options.srt, scheme, options.level)
     return Assessment(vehicle, model, scheme, options.level, findings)
+
+
+def _many(options: argparse.Namespace, scheme: Scheme) -> int:
+    """Say which share of many vehicles meets the level."""
+    for name in ("html", "pdf", "xlsx"):
+        if getattr(options, name) is not None:
+            message = f"--{name}: not with --random, which judges many vehicles"
+            raise UsageError(message)
+    names = options.vehicle or [None]
+    if len(names) > 1 or options.format == "csv":
+        message = "--random: expected one --vehicle, and text or json"
+        raise UsageError(message)
+    from yawdamp_ros.cli import assess_sweep  # noqa: PLC0415 - it brings what sweeps need
+
+    return assess_sweep.run(argparse.Namespace(**{**vars(options), "vehicle": names[0]}), scheme)
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -145,7 +175,8 @@ def _parser() -> argparse.ArgumentParser:
         "turns at low speed, rollover and powertrain among them, with one verdict. Each measure is taken at\n"
         "the speed that its standard names, else at the vehicle's own; --speed is for all.\n"
         "Exit status: 0 if no level is failed, 1 if one is or may be, 2 for wrong use.",
-        "yawdamp assess --vehicle a_double --scheme pbs --level 2",
+        "yawdamp assess --vehicle a_double --scheme pbs --level 2\n"
+        "  yawdamp assess --scheme pbs --level 2 --random 1000 --range units.2.mass=20000:32000",
     )
     add_vehicle_options(parser, MODELS, several=True)
     group = parser.add_argument_group("scheme")
@@ -155,6 +186,11 @@ def _parser() -> argparse.ArgumentParser:
         metavar="NAME|FILE",
         help=f"{', '.join(builtin_schemes())}, or a file of your own (default: {DEFAULT_SCHEME})",
     )
+    group.add_argument(
+        "--measures",
+        metavar="M,M",
+        help="only these of the scheme, separated by commas, as rollover needs no runs",
+    )
     group.add_argument("--level", metavar="L", help="of the scheme; unless given its easiest one decides")
     group.add_argument(
         "--srt",
@@ -163,6 +199,7 @@ def _parser() -> argparse.ArgumentParser:
         help="static rollover threshold of the rear roll-coupled unit in g, as measured, in place of the "
         f"computed one; {DEFAULT_SCHEME} computes none, so that without it the level that takes it is open",
     )
+    _add_many(parser)
     group = parser.add_argument_group("answer")
     group.add_argument("--format", choices=("text", "json", "csv"), default="text", help="default: text")
     group.add_argument(
@@ -188,3 +225,14 @@ def _parser() -> argparse.ArgumentParser:
         "--definitions", action="store_true", help="also say what each measure is, and its levels in full"
     )
     return parser
+
+
+def _add_many(parser: argparse.ArgumentParser) -> None:
+    """Add --random, --range, --seed and --jobs."""
+    group = parser.add_argument_group("many vehicles")
+    group.add_argument("--random", type=int, metavar="N", help="draw N vehicles, evenly from every --range")
+    group.add_argument(
+        "--range", action="append", default=[], metavar="KEY=A:B", help="range of a key; may be repeated"
+    )
+    group.add_argument("--seed", type=int, default=0, help="the same seed draws the same (default: 0)")
+    group.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core)")

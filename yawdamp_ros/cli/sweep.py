@@ -122,7 +122,7 @@ def _sink(plan: Plan, columns: Sequence[str], output: str | None) -> SweepFile |
 def _plan(options: argparse.Namespace) -> Plan:
     vehicle = options.vehicle or DEFAULT_VEHICLE
     axes = tuple(map(parse_variation, options.vary))
-    spans = [_parse_span(text) for text in options.range]
+    spans = [parse_span(text) for text in options.range]
     keys = tuple(axis.keys for axis in axes) or tuple(keys for keys, _ in spans)
     if len({key for each in keys for key in each}) < sum(map(len, keys)):
         message = f"{' and '.join(','.join(each) for each in keys)}: expected every key once"
@@ -159,7 +159,8 @@ def _boundaries(plan: Plan, answers: FloatArray) -> tuple[Boundary, ...]:
     return find_boundaries(eigenvalue, scan)
 
 
-def _parse_span(text: str) -> tuple[tuple[str, ...], tuple[float, float]]:
+def parse_span(text: str) -> tuple[tuple[str, ...], tuple[float, float]]:
+    """Read KEY=A:B, where KEY may be several with commas."""
     key, separator, span = text.partition("=")
     try:
         low, high = map(float, span.split(":"))

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yawdamp_ros.analysis import MEASURES, Boundary, Variation
+from yawdamp_ros.analysis import Boundary, Variation
+from yawdamp_ros.analysis.measures import ALL_MEASURES
 from yawdamp_ros.analysis.points import Points
 from yawdamp_ros.analysis.study import Study
 from yawdamp_ros.cli.boundary_text import boundary_record, boundary_text
@@ -51,7 +52,7 @@ class Sweep:
     def unit(self) -> str:
         """Of the last column."""
         name = self.columns[-1]
-        return MEASURES[name].unit if name in MEASURES else "1/s"
+        return ALL_MEASURES[name].unit if name in ALL_MEASURES else "1/s"
 
 
 def print_json(sweep: Sweep, boundaries: Sequence[Boundary], segments: FloatArray) -> None:
