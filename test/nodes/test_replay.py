@@ -119,6 +119,24 @@ def test_a_log_drives_the_node(graph: Graph, log: Path) -> None:
     assert len(messages["/steering_applied"]) > 10  # how many depends on how busy the machine is
 
 
+def commands(run: Path) -> list[float]:
+    return [message.data for _, message in recorded(run)["/steering"]]
+
+
+def test_a_recording_that_is_played_into_the_node_drives_it_as_it_was_driven(graph: Graph, log: Path) -> None:
+    runs = [graph.directory / "first", graph.directory / "second"]
+    for played, run in zip([log, runs[0]], runs, strict=True):
+        node = graph.command("sim", "--output", run.name)
+        assert outcome(graph.command("replay", str(played)))[0] == 0
+        status, _, errors = stop(node)
+        assert status == 0, errors
+    first, second = (commands(run) for run in runs)
+    # A machine that is busy may lose messages; none comes twice, late, or as another angle.
+    rest = iter(first)
+    assert all(angle in rest for angle in second)
+    assert len(second) > 0.9 * len(first) > 0.8 * COUNT
+
+
 @pytest.mark.timeout(180)
 @pytest.mark.skipif(not RAV4.exists(), reason="the recorded drive is not part of the project")
 def test_a_minute_of_real_driving_drives_the_node(graph: Graph) -> None:
