@@ -68,7 +68,7 @@ def print_text(vehicle: Vehicle, doubts: Sequence[Suspicion]) -> None:
         _print_hitches(vehicle, full, marks)
     _print_keys("Given, of what the nonlinear model alone needs", _by_name(given(vehicle)))
     _print_keys("Assumed by the nonlinear model", _by_source(supposed))
-    _print_keys("Sources", _sources(supposed))
+    _print_keys("Sources, secondary: typical values, not compared with tables there", _sources(supposed))
     _print_keys("Implausible, axle loads by statics", (f"{doubt.key}: {doubt.problem}" for doubt in doubts))
 
 

@@ -1,6 +1,7 @@
 """Documented defaults of what the nonlinear model needs and a vehicle file need not give.
 
-They are those of laden heavy vehicles. `SOURCES` holds where they come from.
+They are typical of laden heavy vehicles. `SOURCES` names the works that treat each quantity; the values are
+secondary, for they were not compared with the tables there. What a vehicle file gives always counts instead.
 """
 
 import math
@@ -15,8 +16,7 @@ from yawdamp_ros.vehicle.statics import static_loads
 SOURCES: Mapping[str, str] = MappingProxyType(
     {
         "Factbook": "Fancher, Ervin, Winkler, Gillespie, A factbook of the mechanical properties of the "
-        "components for single-unit and articulated heavy trucks, UMTRI-86-12, 1986: the range that it "
-        "tabulates",
+        "components for single-unit and articulated heavy trucks, UMTRI-86-12, 1986",
         "Sampson": "Active roll control of articulated heavy vehicles, University of Cambridge, 2000, "
         "appendix",
         "Pacejka": "Tire and vehicle dynamics, 3rd edition, 2012",
@@ -29,7 +29,7 @@ SOURCES: Mapping[str, str] = MappingProxyType(
         "linear": "as the linear model assumes it",
     }
 )
-"""What the short names stand for with which `Assumed.source` begins."""
+"""Works behind the short names with which `Assumed.source` begins."""
 
 LIGHT_UNIT = 6000.0
 """Mass up to which a towed unit counts as a dolly [kg]."""
