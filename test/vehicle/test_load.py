@@ -82,7 +82,7 @@ def test_overrides_change_one_value_each() -> None:
         ("speed=80", "speed: 80: expected a speed in m/s, from 0.01 to 70 (80 km/h is 22.2222)"),
         ("speed=0", "speed: 0: expected a speed"),
         ("units.7.mass=1.0", "units.7.mass: no such key to set"),
-        ("units.x.mass=1.0", "units.x.mass: no such key to set"),
+        ("units.x.mass=1.0", "units.x.mass: 'x': expected a number, *, or one of "),
         ("units.1.mass", "units.1.mass: expected KEY=VALUE"),
         ("units.1.mass=[", "--set units.1.mass=[: line 1: not valid YAML"),
     ],

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -34,6 +35,8 @@ HARD_BRAKING = 5.0
 """Deceleration demanded, the service brake's of UN R13 [m/s^2]."""
 LONGEST_STOP = 30.0
 """In s."""
+FREE = 1e-3
+"""Cornering stiffness of a castering axle [N/rad]."""
 WALKING = 1.0
 """Speed at which a stop counts as done [m/s]."""
 
@@ -80,7 +83,7 @@ def steer_tyre_friction_demand(vehicle: Vehicle) -> float:
     """
     turn, speed = low_speed_turn(vehicle), 5.0 / 3.6
     dynamics = NonlinearDynamics(
-        vehicle, Settings(track=False, roll=False, load_shift=False, relaxation=False)
+        _castering(vehicle), Settings(track=False, roll=False, load_shift=False, relaxation=False)
     )
     lead, place = turn.geometry[0], steer_axle_position(vehicle)
     arm = complex(place, -lead.guide)
@@ -220,6 +223,23 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
     run = _driven(dynamics, dynamics.initial_state(speed), inputs, steering, LONGEST_STOP, WALKING)
     low, high = _swept(vehicle, run.outputs, 0.0)
     return float(high.max() - low.min())
+
+
+def _castering(vehicle: Vehicle) -> Vehicle:
+    """Vehicle whose self-steering axles take no lateral force."""
+    units = [
+        replace(
+            unit,
+            axles=tuple(
+                replace(axle, cornering_stiffness=1e-3, tyres=None, tyre="linear")
+                if axle.self_steering
+                else axle
+                for axle in unit.axles
+            ),
+        )
+        for unit in vehicle.units
+    ]
+    return replace(vehicle, units=tuple(units))
 
 
 def _driven(  # noqa: PLR0913, PLR0917 - the whole of one run

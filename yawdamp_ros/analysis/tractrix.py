@@ -148,13 +148,15 @@ def _geometry(vehicle: Vehicle) -> Iterator[UnitGeometry]:
             message = f"{vehicle.name}: {unit.name}: no two supports to turn about"
             raise AnalysisError(message)
         steered = [axle for axle in unit.axles if axle.steered]
+        rolling = [axle.position for axle in unit.axles if not (axle.steered or axle.self_steering)]
+        middle = sum(rolling) / len(rolling) if rolling else held.rear
         tail, nose = extent(unit)
         foremost = max(steered, key=lambda axle: axle.position) if index == 0 else None
         lengths = (
-            (foremost.position if foremost else held.front) - held.rear,
-            0.0 if unit.rear_hitch is None else unit.rear_hitch - held.rear,
-            nose + (unit.front_overhang or 0.0) - held.rear,
-            tail - (unit.rear_overhang or 0.0) - held.rear,
+            (foremost.position if foremost else held.front) - middle,
+            0.0 if unit.rear_hitch is None else unit.rear_hitch - middle,
+            nose + (unit.front_overhang or 0.0) - middle,
+            tail - (unit.rear_overhang or 0.0) - middle,
             max([0.5 * (unit.width or 0.0), *map(_outside, unit.axles)]),
             _outside(foremost) if foremost else 0.0,
         )

@@ -96,7 +96,7 @@ def add_vehicle_options(
         action="append",
         default=[],
         metavar="KEY=VALUE",
-        help="change the vehicle, as in units.1.mass=4156 (counted from 0); may be repeated",
+        help="change the vehicle, as in units.1.mass=4156 (from 0, or by name; * is all); may be repeated",
     )
 
 

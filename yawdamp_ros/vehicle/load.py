@@ -16,6 +16,7 @@ from yawdamp_ros.vehicle.loads import added_axle_loads, loaded, static_load
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 from yawdamp_ros.vehicle.plausibility import check_plausible, warning_lines
 from yawdamp_ros.vehicle.shape import GROUND_FRAME, hitch_frame, steered_axle_link
+from yawdamp_ros.vehicle.spellings import canonical, replaced
 from yawdamp_ros.vehicle.tyres import fancher_stiffness
 
 LONGEST_WHEELBASE = 30.0
@@ -71,7 +72,8 @@ def load_vehicle(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicle:
     vehicle : str or Path
         One of `builtin_vehicles`, or the path of a YAML file.
     overrides : sequence of str
-        Each ``KEY=VALUE``, as in ``units.1.mass=4156``; units and axles are counted from 0.
+        Each ``KEY=VALUE``, as in ``units.1.mass=4156``; units and axles are counted from 0, units go by name,
+        too, and ``*`` is all: ``units.*.axles.*.track_width=1.9``.
 
     Returns
     -------
@@ -168,7 +170,7 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     VehicleError
         If the text or an override is not valid.
     """
-    data = overridden_data(text, source, overrides)
+    data = canonical(overridden_data(text, source, overrides), source)
     if overrides or not _is_builtin(text, source):
         _check_schema(data, source)
     _check_combination(data, source)
@@ -183,10 +185,9 @@ def value_at(vehicle: VehicleSource, key: str, source: str = "vehicle") -> float
     VehicleError
         If there is no number there.
     """
-    node = overridden_data(vehicle.text, source, vehicle.overrides)
+    data = canonical(overridden_data(vehicle.text, source, vehicle.overrides), source)
     try:
-        for part in key.split("."):
-            node = node[int(part)] if isinstance(node, list) else node[part]
+        (node,) = _nodes([data], key.split("."), key, source)
         number = float(node)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise VehicleError(source, key, "no number there; expected a key of the file") from error
@@ -220,9 +221,10 @@ def load_stack(
     for extreme in (np.min, np.max):
         for key, column in values.items():
             _set(data, key, float(extreme(column)), source)
-        _check_schema(data, source)
+        _check_schema(canonical(data, source), source)
     for key, column in values.items():
         _set(data, key, column, source)
+    data = canonical(data, source)
     _check_combination(data, source)
     return _build(data, source)
 
@@ -264,26 +266,53 @@ def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until
 
 
 def _set(data: Any, key: str, value: Any, source: str) -> None:  # noqa: ANN401
+    """Set a value at a key; units go by place or name, and ``*`` is all of them."""
     *parents, last = key.split(".")
-    node = data
     try:
-        for part in parents:
-            node = node[_index(part, key, source)] if isinstance(node, list) else node[part]
-        if isinstance(node, list):
-            node[_index(last, key, source)] = value
-        else:
-            node[last] = value
+        for node in _nodes([data], parents, key, source):
+            if isinstance(node, list):
+                for index in _indices(node, last, key, source):
+                    node[index] = value
+            else:
+                replaced(node, last)
+                node[last] = value
     except VehicleError:
         raise
-    except (KeyError, IndexError, TypeError, ValueError) as error:
+    except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
         raise VehicleError(source, key, "no such key to set") from error
 
 
-def _index(part: str, key: str, source: str) -> int:
-    index = int(part)
+def _nodes(nodes: list[Any], parts: Sequence[str], key: str, source: str) -> list[Any]:
+    """Records and lists that a key leads to."""
+    for part in parts:
+        nodes = [
+            child
+            for node in nodes
+            for child in (
+                [node[index] for index in _indices(node, part, key, source)]
+                if isinstance(node, list)
+                else [node[part]]
+            )
+        ]
+    return nodes
+
+
+def _indices(entries: list[Any], part: str, key: str, source: str) -> list[int]:
+    """Places of a list that a part of a key means: a number, a name, or all."""
+    if part == "*":
+        return list(range(len(entries)))
+    names = [entry.get("name") if isinstance(entry, dict) else None for entry in entries]
+    if part in names:
+        return [names.index(part)]
+    try:
+        index = int(part)
+    except ValueError as error:
+        known = ", ".join(str(name) for name in names if name)
+        expected = f"a number, *, or one of {known}" if known else "a number or *"
+        raise VehicleError(source, key, f"{part!r}: expected {expected}") from error
     if index < 0:  # Python would count it from the end
         raise VehicleError(source, key, f"{index}: expected an index, 0 or more")
-    return index
+    return [index]
 
 
 def _build(data: dict[str, Any], source: str) -> Vehicle:
@@ -313,6 +342,7 @@ def _build_unit(unit: dict[str, Any], index: int, added: Sequence[Any], source: 
             _number(_stiffness(axle, added[place], f"units.{index}.axles.{place}", source)),
             steered=axle.get("steered") is True,
             commanded=axle.get("steered") == "commanded",
+            self_steering=axle.get("self_steering", False),
             tyres=axle.get("tyres"),
             static_load=None if load is None else _number(load),
             tyre=_tyre(axle.get("tyre"), source),

@@ -34,6 +34,8 @@ class Axle:
         Of the whole axle, in N/rad, positive.
     steered : bool
         Whether the road-wheel steer angle acts on it.
+    self_steering : bool
+        Whether its wheels caster at walking speed; at speed they are locked, as such axles are.
     commanded : bool
         Whether it is steered by a command of its unit's own; only the nonlinear model steers it.
     tyres : int or None
@@ -72,6 +74,7 @@ class Axle:
     rolling_resistance: float | None = None
     driven: bool | None = None
     brake_share: float | None = None
+    self_steering: bool = False
 
 
 @dataclass(frozen=True)
