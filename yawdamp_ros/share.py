@@ -1,4 +1,4 @@
-"""Where the package's data files lie."""
+"""Location of the package's data files."""
 
 from functools import cache
 from pathlib import Path

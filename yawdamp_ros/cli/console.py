@@ -16,7 +16,7 @@ from rich.text import Text
 
 
 class _Done(ProgressColumn):
-    """How much is done and, where it is known, of how much."""
+    """Progress: how much is done and, where it is known, of how much."""
 
     def __init__(self, unit: str) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Where a sweep's chunks are worked on: here, on all cores, or on a cluster."""
+"""Executors of a sweep's chunks: this process, all cores, or a cluster."""
 
 import os
 import signal
@@ -111,7 +111,7 @@ def _set_up_worker() -> None:
 
 
 def _end_with_parent() -> None:
-    """Of a parent that was killed its workers learn nothing: they would wait for work for ever."""
+    """Exit when the parent dies; pool workers are not notified and would block."""
     parent = parent_process()
     if parent is not None:
         parent.join()

@@ -8,7 +8,7 @@ from yawdamp_ros.cli.errors import UsageError
 
 
 class Extra(NamedTuple):
-    """Where an optional library comes from.
+    """Source of an optional library.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What `stability` says, as text and as JSON."""
+"""Reports of `stability`, as text and as JSON."""
 
 import json
 import math
@@ -38,7 +38,7 @@ class Stability:
 
     @property
     def stable(self) -> bool:
-        """Whether every eigenvalue lies in the left half plane."""
+        """True if every eigenvalue lies in the left half plane."""
         return all(mode.eigenvalue.real < 0.0 for mode in self.modes)
 
 

@@ -40,7 +40,7 @@ PARQUET = ".parquet"
 
 
 class Plan(NamedTuple):
-    """What a command line asks for."""
+    """Sweep that a command line asks for."""
 
     study: Study
     points: Points

@@ -1,4 +1,4 @@
-"""What `sweep` says, as text and as JSON."""
+"""Reports of `sweep`, as text and as JSON."""
 
 import json
 import math
@@ -50,7 +50,7 @@ class Sweep:
 
     @property
     def unit(self) -> str:
-        """Of the last column."""
+        """Unit of the last column."""
         name = self.columns[-1]
         return ALL_MEASURES[name].unit if name in ALL_MEASURES else "1/s"
 

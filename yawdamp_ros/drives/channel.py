@@ -48,7 +48,24 @@ UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
 
 
 def quantity_of(name: str) -> str:
-    """Quantity of a channel's name: ``yaw_rate`` of ``truck/yaw_rate``."""
+    """Return the quantity in a channel's name.
+
+    Parameters
+    ----------
+    name : str
+        As in ``truck/yaw_rate``.
+
+    Returns
+    -------
+    str
+        As in ``yaw_rate``.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.drives import quantity_of
+    >>> quantity_of("truck/yaw_rate"), quantity_of("articulation_1")
+    ('yaw_rate', 'articulation')
+    """
     last = name.rpartition("/")[2]
     return "articulation" if last.startswith("articulation_") else last
 
@@ -68,6 +85,13 @@ class Channel:
         In s from the start of the drive, not decreasing.
     values : ndarray, shape (m,)
         Finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from yawdamp_ros.drives import Channel
+    >>> Channel("truck/yaw_rate", "made", np.array([0.0, 1.0]), np.array([0.1, 0.2])).unit
+    'rad/s'
     """
 
     name: str

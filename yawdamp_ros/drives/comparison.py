@@ -23,7 +23,7 @@ _POWER_SHARE = 0.95
 
 @dataclass(frozen=True)
 class ChannelComparison:
-    """One measured channel beside its simulated twin.
+    """A measured channel beside its simulated twin.
 
     Attributes
     ----------
@@ -48,6 +48,17 @@ class ChannelComparison:
         R2 that a perfect model would reach with that noise.
     frequencies, coherence : ndarray, shape (k,)
         Hz, and the share of the measured power there that is linear in the simulated signal.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive, load_vehicle
+    >>> from yawdamp_ros.drives import compare, inputs_of, matches, predict
+    >>> drive, vehicle = load_drive("docs/recorded_drive.csv").steered_by(18.0), load_vehicle("truck_trailer")
+    >>> inputs = inputs_of(drive, vehicle.speed)
+    >>> found, notes = matches(drive, vehicle.unit_names)
+    >>> first = compare(found, inputs.times, predict(vehicle, inputs))[0]
+    >>> first.output, round(first.r_squared, 2)
+    ('trailer/yaw_rate', 0.75)
     """
 
     output: str
@@ -75,7 +86,7 @@ class ChannelComparison:
 
 @dataclass(frozen=True)
 class Excitation:
-    """How much a drive asked of the vehicle.
+    """Excitation of a vehicle by a drive.
 
     Attributes
     ----------
@@ -87,6 +98,14 @@ class Excitation:
         In m/s.
     duration : float
         In s.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> from yawdamp_ros.drives import excitation
+    >>> round(excitation(drive, 20.0).duration, 1)
+    94.5
     """
 
     steering_rms: float
@@ -156,10 +175,25 @@ def compare(
         Of the outputs, in s.
     outputs : mapping of str to ndarray, shape (k,)
 
+    Returns
+    -------
+    list of ChannelComparison
+
     Raises
     ------
     DriveError
         If nothing was measured that could be compared.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive, load_vehicle
+    >>> from yawdamp_ros.drives import compare, inputs_of, matches, predict
+    >>> drive, vehicle = load_drive("docs/recorded_drive.csv").steered_by(18.0), load_vehicle("truck_trailer")
+    >>> inputs = inputs_of(drive, vehicle.speed)
+    >>> found, notes = matches(drive, vehicle.unit_names)
+    >>> compared = compare(found, inputs.times, predict(vehicle, inputs))
+    >>> [(each.output, round(each.gain, 2)) for each in compared]
+    [('trailer/yaw_rate', 1.0), ('truck/yaw_rate', 0.97), ('truck/lateral_acceleration', 0.96)]
     """
     found = [match for match in matched if match.output in outputs]
     if not found:
@@ -169,7 +203,26 @@ def compare(
 
 
 def excitation(drive: Drive, speed: float) -> Excitation:
-    """How much a drive asks of a vehicle whose own speed in m/s is followed where the drive has none."""
+    """Return how much a drive excites a vehicle.
+
+    Parameters
+    ----------
+    drive : Drive
+    speed : float
+        Speed of the vehicle where the drive has none [m/s].
+
+    Returns
+    -------
+    Excitation
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> from yawdamp_ros.drives import excitation
+    >>> round(excitation(drive, 20.0).steering_bandwidth, 1)
+    0.4
+    """
     from scipy.signal import welch  # noqa: PLC0415 - it loads longer than most commands run
 
     steering = drive["steering"]

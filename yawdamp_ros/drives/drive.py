@@ -12,7 +12,16 @@ INPUTS = ("steering", "speed", "acceleration", "gear", "friction")
 
 
 def is_input(name: str) -> bool:
-    """Whether a channel acts on a vehicle, rather than was measured on it.
+    """Return whether a channel acts on a vehicle, rather than was measured on it.
+
+    Parameters
+    ----------
+    name : str
+        Name of the channel.
+
+    Returns
+    -------
+    bool
 
     Examples
     --------
@@ -41,6 +50,13 @@ class Drive:
         What was left out of the log, and why.
     warning : str
         What is wrong with the file, though these channels could be read; else empty.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> round(drive.duration, 1), sorted(drive.channels)[:2]
+    (94.5, ['lateral_acceleration', 'speed'])
     """
 
     source: str

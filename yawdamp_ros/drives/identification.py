@@ -41,7 +41,7 @@ CLOSE = 0.98
 
 @dataclass(frozen=True)
 class Estimate:
-    """A parameter that was fitted.
+    """A fitted parameter.
 
     Attributes
     ----------
@@ -49,6 +49,13 @@ class Estimate:
     value : float
     low, high : float
         Ends of the 95 % confidence interval.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.drives import Estimate, Parameter
+    >>> stiffness = Parameter("stiffness", "", start=1.0, scale=0.5, positive=True)
+    >>> Estimate(stiffness, value=0.86, low=0.84, high=0.88).seen
+    True
     """
 
     parameter: Parameter
@@ -58,7 +65,7 @@ class Estimate:
 
     @property
     def seen(self) -> bool:
-        """Whether the drive shows the parameter: the interval is narrower than what would matter."""
+        """True if the drive shows the parameter: the interval is narrower than a change that matters."""
         return self.high - self.low <= 2.0 * self.parameter.scale
 
 
@@ -82,6 +89,17 @@ class Identification:
         Changes to the vehicle file that make it the identified vehicle.
     notes : tuple of str
         What was left out.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> from yawdamp_ros.drives import identify
+    >>> from yawdamp_ros.vehicle import VehicleSource, vehicle_text
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0).window(0.0, 12.0)
+    >>> source = VehicleSource(vehicle_text("truck_trailer"), ())
+    >>> found = identify(drive, source, ["stiffness"])
+    >>> len(found.overrides), found.warnings
+    (3, [])
     """
 
     estimates: tuple[Estimate, ...]
@@ -170,6 +188,17 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
         If there is no such parameter, or nothing was measured that it could be fitted to.
     VehicleError
         If the vehicle is none, or a fit leaves the range of a key.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> from yawdamp_ros.drives import identify
+    >>> from yawdamp_ros.vehicle import VehicleSource, vehicle_text
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0).window(0.0, 12.0)
+    >>> source = VehicleSource(vehicle_text("truck_trailer"), ())
+    >>> found = identify(drive, source, ["stiffness"])
+    >>> bool(found["stiffness"].low < found["stiffness"].value < found["stiffness"].high)
+    True
     """
     lagging = {"steering_time_constant", "steering_delay"}.intersection(parameters)
     subject = Subject(source, parameters if lagging else (*parameters, "steering_delay"))

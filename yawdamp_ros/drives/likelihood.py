@@ -143,7 +143,7 @@ class _Problem:
         return np.concatenate([*parts, np.diag(1.0 / self._spreads)])
 
     def covariance(self, at: FloatArray, noises: Sequence[NoiseModel]) -> FloatArray:
-        """Of the coordinates: the likelihood's or the robust one, whose errors are larger."""
+        """Covariance of the coordinates: the likelihood's or the robust one, whichever has larger errors."""
         jacobian = self.jacobian(at, noises)
         by_likelihood = _inverse(jacobian)
         middle = np.diag(1.0 / self._spreads**2)
@@ -160,7 +160,7 @@ class _Problem:
         return np.asarray(by_likelihood * np.outer(wider, wider), dtype=np.float64)
 
     def _derivatives(self, at: FloatArray) -> list[FloatArray]:
-        """Of the residuals by the coordinates, shape (k, m, p) for each group."""
+        """Derivatives of the residuals by the coordinates, shape (k, m, p) for each group."""
         count = len(self._parameters)
         now = self._predicted(at[:count])
         found = [np.zeros((len(_means(part)), part.shape[1], len(at))) for part in now]

@@ -10,13 +10,21 @@ COMPARED = ("yaw_rate", "lateral_acceleration", "articulation", "yaw")
 
 
 class Match(NamedTuple):
-    """A measured channel and the output that it is a measurement of.
+    """A measured channel and the output that it measures.
 
     Attributes
     ----------
     output : str
         As in ``truck/yaw_rate`` or ``articulation_1``.
     channel : Channel
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> from yawdamp_ros.drives import matches
+    >>> matches(drive, ("truck", "trailer"))[0][0].channel.name
+    'trailer/yaw_rate'
     """
 
     output: str
@@ -24,7 +32,7 @@ class Match(NamedTuple):
 
 
 def matches(drive: Drive, unit_names: tuple[str, ...]) -> tuple[list[Match], list[str]]:
-    """Measured channels of a drive by the outputs of a vehicle, and notes on those left out.
+    """Return the measured channels of a drive by the outputs of a vehicle, and notes on those left out.
 
     A channel of a unit of the vehicle is that unit's; one of no unit, or of something that is no unit,
     is the lead unit's, if it is the only one of its quantity.
@@ -33,6 +41,21 @@ def matches(drive: Drive, unit_names: tuple[str, ...]) -> tuple[list[Match], lis
     ----------
     drive : Drive
     unit_names : tuple of str
+
+    Returns
+    -------
+    list of Match
+    list of str
+        A line for each channel that was left out.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> from yawdamp_ros.drives import matches
+    >>> found, notes = matches(drive, ("truck", "trailer"))
+    >>> [match.output for match in found]
+    ['trailer/yaw_rate', 'truck/yaw_rate', 'truck/lateral_acceleration']
     """
     found: dict[str, Channel] = {}
     strangers: dict[str, list[Channel]] = {}

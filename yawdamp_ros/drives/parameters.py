@@ -21,7 +21,7 @@ _POSITIVE = re.compile(r".*\.(mass|yaw_inertia|cornering_stiffness|tyre_load)|fr
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number to be found.
+    """A number that is to be identified.
 
     Attributes
     ----------
@@ -36,6 +36,12 @@ class Parameter:
         Size of a change that matters; a wider interval says that the drive does not show the parameter.
     positive : bool
         Whether its logarithm is fitted.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.drives import Parameter
+    >>> Parameter("stiffness", "", start=1.0, scale=0.5, positive=True).value(0.0)
+    1.0
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""What the linear model of a vehicle makes of a drive whose speed varies, an hour in a moment.
+"""Prediction of a drive with varying speed by the linear model; an hour takes a moment.
 
 The speed is followed quasi-statically, as a run follows it: at each instant the model is that of its speed.
 Steps of one size are exact for what is held over them. A drive is cut into blocks that are stepped side by
@@ -37,6 +37,15 @@ class Inputs(NamedTuple):
         Its mean from each instant to the next, rad.
     speed : ndarray, shape (k,)
         In m/s.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> from yawdamp_ros.drives import inputs_of
+    >>> inputs = inputs_of(drive.window(0.0, 10.0), 20.0)
+    >>> inputs.times[:3].tolist()
+    [0.0, 0.01, 0.02]
     """
 
     times: FloatArray
@@ -46,7 +55,7 @@ class Inputs(NamedTuple):
 
 
 def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: float | None = None) -> Inputs:
-    """Inputs of a drive at the instants of a grid; every sample holds until the next.
+    """Return the inputs of a drive at the instants of a grid; every sample holds until the next.
 
     Parameters
     ----------
@@ -58,6 +67,18 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: f
     delay : float, optional
         Time in s by which the steering acts later than its stamps say, or earlier. If one is given the
         angle at an instant is interpolated, so that what is predicted is a smooth function of the delay.
+
+    Returns
+    -------
+    Inputs
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> from yawdamp_ros.drives import inputs_of
+    >>> inputs_of(drive.window(0.0, 10.0), 20.0).steering.shape
+    (1001,)
     """
     steering = drive["steering"]
     count = math.floor(drive.duration / step_size + 1e-6) + 1
@@ -79,7 +100,7 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: f
 
 
 def predict(vehicle: Vehicle, inputs: Inputs, model: str = "consistent") -> Mapping[str, FloatArray]:
-    """Outputs of a vehicle at the instants of its inputs, from a steady turn at the first.
+    """Return the outputs of a vehicle at the instants of its inputs, from a steady turn at the first.
 
     Parameters
     ----------
@@ -92,6 +113,16 @@ def predict(vehicle: Vehicle, inputs: Inputs, model: str = "consistent") -> Mapp
     -------
     mapping of str to ndarray, shape (k,)
         ``<unit>/yaw_rate``, ``<unit>/lateral_acceleration``, ``<unit>/yaw`` and ``articulation_1`` onwards.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_drive
+    >>> drive = load_drive("docs/recorded_drive.csv").steered_by(18.0)
+    >>> from yawdamp_ros import load_vehicle
+    >>> from yawdamp_ros.drives import inputs_of, predict
+    >>> outputs = predict(load_vehicle("truck_trailer"), inputs_of(drive.window(0.0, 10.0), 20.0))
+    >>> sorted(outputs)[:2]
+    ['articulation_1', 'trailer/lateral_acceleration']
     """
     step = float(inputs.times[1] - inputs.times[0]) if len(inputs.times) > 1 else STEP_SIZE
     family = _Family.of(vehicle, float(inputs.speed.min()), float(inputs.speed.max()), model)

@@ -28,6 +28,14 @@ class EquationsOfMotion:
         Forces and moments by heading: a slip angle contains the yaw of its own unit.
     steering : ndarray, shape (n + 1,)
         Forces and moments by road-wheel steer angle.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.dynamics import equations_of_motion
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> equations = equations_of_motion(load_vehicle("interlink"))
+    >>> bool((equations.mass == equations.mass.T).all())
+    True
     """
 
     mass: FloatArray
@@ -49,6 +57,13 @@ def equations_of_motion(vehicle: Vehicle) -> EquationsOfMotion:
     Returns
     -------
     EquationsOfMotion
+
+    Examples
+    --------
+    >>> from yawdamp_ros.dynamics import equations_of_motion
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> equations_of_motion(load_vehicle("interlink")).mass.shape
+    (4, 4)
     """
     rows = cg_rows(vehicle)
     size = rows.shape[-1]

@@ -1,4 +1,4 @@
-"""How the units of a combination move together."""
+"""Kinematics of the units of a combination."""
 
 from collections.abc import Sequence
 

@@ -44,6 +44,13 @@ class LinearModel:
     output_names : tuple of str
         For all units lateral velocity (m/s) in the unit's own frame, then yaw rate (rad/s), then
         lateral acceleration (m/s^2), each at the centre of gravity; then articulation angles (rad).
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("truck_trailer"))
+    >>> model.output_names[:2]
+    ('truck/lateral_velocity', 'trailer/lateral_velocity')
     """
 
     vehicle: Vehicle
@@ -58,7 +65,7 @@ class LinearModel:
 
 
 def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "consistent") -> LinearModel:
-    """Linear model of a vehicle at a speed.
+    """Return the linear model of a vehicle at a speed.
 
     The outputs follow from the states by the vehicle's true kinematics in every model. Where the states
     come from the published matrices, which contradict those kinematics, so do they: the accelerations
@@ -82,6 +89,16 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     DynamicsError
         If the speed is below `LOWEST_SPEED` or not finite, there is no such model for this vehicle, or its
         numbers are too far apart.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_vehicle
+    >>> from yawdamp_ros import linear_model
+    >>> model = linear_model(load_vehicle("truck_trailer"), speed=25.0)
+    >>> model.state_names
+    ('truck/lateral_velocity', 'truck/yaw_rate', 'trailer/yaw_rate', 'articulation_1')
+    >>> model.state_matrix.shape
+    (4, 4)
     """
     speed = vehicle.speed if speed is None else speed
     if not np.all(np.isfinite(speed) & (np.asarray(speed) >= LOWEST_SPEED)):
@@ -113,7 +130,7 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
 
 
 class OutputSlices(NamedTuple):
-    """Where in the outputs of n units each quantity is, as `LinearModel.output_names` has them."""
+    """Slices of each quantity in the outputs of n units, in the order of `LinearModel.output_names`."""
 
     lateral_velocity: slice
     yaw_rate: slice
@@ -127,7 +144,26 @@ class OutputSlices(NamedTuple):
 
 
 class Outputs(NamedTuple):
-    """Outputs of a linear model of n units by quantity; each of shape (..., n), articulation (..., n - 1)."""
+    """Outputs of a linear model of n units by quantity.
+
+    Attributes
+    ----------
+    lateral_velocity : ndarray, shape (..., n)
+        In each unit's own frame [m/s].
+    yaw_rate : ndarray, shape (..., n)
+        In rad/s.
+    lateral_acceleration : ndarray, shape (..., n)
+        In m/s^2.
+    articulation : ndarray, shape (..., n - 1)
+        In rad.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from yawdamp_ros.dynamics import split_outputs
+    >>> split_outputs(np.arange(7.0), 2).articulation
+    array([6.])
+    """
 
     lateral_velocity: FloatArray
     yaw_rate: FloatArray
@@ -136,7 +172,7 @@ class Outputs(NamedTuple):
 
 
 def split_outputs(outputs: FloatArray, units: int) -> Outputs:
-    """Views of outputs in the order of `LinearModel.output_names`.
+    """Return views of outputs by quantity.
 
     Parameters
     ----------
@@ -147,6 +183,13 @@ def split_outputs(outputs: FloatArray, units: int) -> Outputs:
     Returns
     -------
     Outputs
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from yawdamp_ros.dynamics import split_outputs
+    >>> split_outputs(np.arange(7.0), 2).yaw_rate
+    array([2., 3.])
     """
     return Outputs(*(outputs[..., part] for part in OutputSlices.of(units)))
 

@@ -24,6 +24,14 @@ class UnitCurves(NamedTuple):
         In s.
     yaw, yaw_rate, lateral_acceleration, x, y : ndarray, shape (m,)
         rad, rad/s, m/s^2, m.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import simulate
+    >>> from yawdamp_ros.manoeuvres import Step
+    >>> truck = simulate("interlink", Step(amplitude=0.01), 5.0, sample_period=0.01)["truck"]
+    >>> float(truck.y[-1].round(2))
+    5.26
     """
 
     time: FloatArray
@@ -36,7 +44,12 @@ class UnitCurves(NamedTuple):
 
 @dataclass(frozen=True)
 class Curves(Response):
-    """A `Response` that can be asked for a unit, made a table, and drawn.
+    """A `Response` that gives a unit by its name, a table and a picture.
+
+    Parameters
+    ----------
+    unit_names, time, steering_angle, yaw, yaw_rate, lateral_acceleration, articulation, x, y, extra, events
+        As for `Response`.
 
     Examples
     --------
@@ -44,7 +57,7 @@ class Curves(Response):
     >>> from yawdamp_ros.manoeuvres import LaneChange
     >>> run = simulate("interlink", LaneChange(amplitude=0.02), 5.0, sample_period=0.01)
     >>> float(run["trailer_2"].yaw_rate.max().round(4))
-    0.0595
+    0.0631
     >>> run.column_units()["articulation_1"]
     'rad'
     """

@@ -20,6 +20,16 @@ def load_run(path: str | Path) -> Curves:
     ------
     LogError
         If it is no run, or cannot be read.
+
+    Examples
+    --------
+    >>> import subprocess
+    >>> import sys
+    >>> command = [sys.executable, "-m", "yawdamp_ros", "simulate", "--manoeuvre", "step", "--duration", "2"]
+    >>> _ = subprocess.run([*command, "--output", "run.csv"], capture_output=True, check=True)
+    >>> from yawdamp_ros import load_run
+    >>> load_run("run.csv")["truck"].yaw_rate.shape
+    (2001,)
     """
     # Here and not above: each reader loads only with its files.
     from yawdamp_ros.logs import is_recording  # noqa: PLC0415

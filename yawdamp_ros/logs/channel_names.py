@@ -1,4 +1,4 @@
-"""What a name in a log says: which quantity, of which unit of the vehicle, in which unit of measure."""
+"""Meaning of names in a log: quantity, unit of the vehicle, and unit of measure."""
 
 import re
 from collections.abc import Sequence
@@ -41,7 +41,7 @@ _ARTICULATION = re.compile(r"(?:articulation|hitch_angle|articulation_angle)_?(\
 
 
 class Named(NamedTuple):
-    """What a name says.
+    """Meaning of a name.
 
     Attributes
     ----------

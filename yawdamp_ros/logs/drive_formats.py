@@ -72,7 +72,7 @@ def load_drive(  # noqa: PLR0913 - each says how one thing is found
     measured: bool = True,
     until: float = math.inf,
 ) -> Drive:
-    """Read a recorded drive: CSV, MCAP, rosbag2 (mcap or sqlite3) or MATLAB .mat.
+    r"""Read a recorded drive: CSV, MCAP, rosbag2 (mcap or sqlite3) or MATLAB .mat.
 
     Parameters
     ----------
@@ -103,6 +103,15 @@ def load_drive(  # noqa: PLR0913 - each says how one thing is found
     LogError
         If the log cannot be read, or holds no steering; the message names file, place and what was
         expected.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from yawdamp_ros import load_drive
+    >>> _ = Path("drive.csv").write_text("time_s,steer_deg,speed_kmh\n0,0,72\n1,2,72\n", encoding="utf-8")
+    >>> drive = load_drive("drive.csv")
+    >>> drive["steering"].values.round(4).tolist(), drive["speed"].values.tolist()
+    ([0.0, 0.0349], [20.0, 20.0])
     """
     wishes = [parse_wish(text) for text in channels]
     sign = 1.0

@@ -61,7 +61,7 @@ def read_drive_mat(path: Path, options: DriveOptions) -> Drive:
 
 
 def is_mat(path: Path) -> bool:
-    """Whether a path is named as a .mat file."""
+    """Return whether a path is named as a .mat file."""
     return path.suffix.lower() == ".mat"
 
 

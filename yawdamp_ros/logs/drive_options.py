@@ -7,7 +7,7 @@ from yawdamp_ros.logs.channel_names import Wish
 
 
 class DriveOptions(NamedTuple):
-    """What the reader of a drive is told; by default it finds everything by names and types.
+    """Options of the reader of a drive; by default it finds everything by names and types.
 
     Attributes
     ----------

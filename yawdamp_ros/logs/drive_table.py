@@ -15,7 +15,7 @@ LARGEST_VALUE = 1e12
 
 
 class Column(NamedTuple):
-    """What becomes of a column.
+    """Use of a column.
 
     Attributes
     ----------

@@ -37,7 +37,7 @@ LARGEST_DEFINITION = 1 << 16
 
 
 class RecordedMessage(NamedTuple):
-    """A message as it lies in a file.
+    """A message as a file holds it.
 
     Attributes
     ----------
@@ -51,6 +51,20 @@ class RecordedMessage(NamedTuple):
     schema : Schema
         Definition, as in the file.
     message_encoding : str
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from struct import pack
+    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
+    >>> directory = make_run_directory(Path("run"), numbered=False)
+    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
+    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
+    >>> writer.close()
+    >>> from yawdamp_ros.logs import McapLog
+    >>> message = next(McapLog(directory).messages())
+    >>> message.type_name, message.log_time
+    ('std_msgs/msg/Float64', 0)
     """
 
     file: Path
@@ -63,7 +77,7 @@ class RecordedMessage(NamedTuple):
 
 
 class McapLog:
-    """The messages of a recording, file by file, in the order in which they were written.
+    """Messages of a recording, file by file, in the order in which they were written.
 
     Parameters
     ----------
@@ -83,6 +97,19 @@ class McapLog:
     ------
     LogError
         If there is nothing to be read.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from struct import pack
+    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
+    >>> directory = make_run_directory(Path("run"), numbered=False)
+    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
+    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
+    >>> writer.close()
+    >>> from yawdamp_ros.logs import McapLog
+    >>> [message.topic for message in McapLog(directory).messages()]
+    ['/steering']
     """
 
     def __init__(self, path: Path) -> None:
@@ -154,7 +181,22 @@ class McapLog:
 
 
 class MessageDecoder:
-    """Decodes messages by the definitions that lie beside them; nothing need be installed."""
+    """Decoder of messages by the definitions beside them; no message package is needed.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from struct import pack
+    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
+    >>> directory = make_run_directory(Path("run"), numbered=False)
+    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
+    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
+    >>> writer.close()
+    >>> from yawdamp_ros.logs import McapLog, MessageDecoder
+    >>> decode = MessageDecoder()
+    >>> [decode(message).data for message in McapLog(directory).messages()]
+    [0.02]
+    """
 
     def __init__(self) -> None:
         self._decoders: dict[tuple[str, bytes], Any] = {}
@@ -247,7 +289,34 @@ def _decompressed(chunk: Chunk) -> Chunk:
 
 
 def is_recording(path: Path) -> bool:
-    """Whether a path is a rosbag2 directory or an MCAP file, rather than text."""
+    """Return whether a path is a rosbag2 directory or an MCAP file, rather than text.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    LogError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from struct import pack
+    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
+    >>> directory = make_run_directory(Path("run"), numbered=False)
+    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
+    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
+    >>> writer.close()
+    >>> from yawdamp_ros.logs import is_recording
+    >>> is_recording(directory), is_recording(directory / "metadata.yaml")
+    (True, False)
+    """
     if path.is_dir():
         return True
     try:

@@ -1,4 +1,4 @@
-"""Whether a disk has room for a run, before it is written."""
+"""Check that a disk has room for a run before it is written."""
 
 import shutil
 from pathlib import Path

@@ -68,7 +68,7 @@ class SqliteLog:
 
 
 def is_sqlite(path: Path) -> bool:
-    """Whether a path is a rosbag2 directory with sqlite3 storage."""
+    """Return whether a path is a rosbag2 directory with sqlite3 storage."""
     metadata = path / "metadata.yaml"
     try:
         return path.is_dir() and "storage_identifier: sqlite3" in read_text(metadata, LARGEST_METADATA)

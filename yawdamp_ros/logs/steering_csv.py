@@ -48,6 +48,13 @@ def read_steering_csv(
     LogError
         If the file cannot be read, lacks a column, or holds a value that is none; the message names
         the line.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from yawdamp_ros.logs import read_steering_csv
+    >>> read_steering_csv(Path("docs/recorded_drive.csv")).times[:2]
+    [0.0, 0.04]
     """
     with csv_reader(path) as rows:
         return _parse(rows, path, column, degrees=degrees, until=until)

@@ -34,6 +34,12 @@ class SteeringLog:
         has none.
     inputs : mapping of str to (sequence of float, sequence of float)
         Times in s and values of every other input beside it, the speed among them, by name.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.logs import SteeringLog
+    >>> SteeringLog("made", times=[0.0, 1.0], angles=[0.0, 0.02]).angles
+    [0.0, 0.02]
     """
 
     source: str

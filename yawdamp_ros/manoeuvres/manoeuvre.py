@@ -31,7 +31,7 @@ _LEAST, _LARGEST = 1e-9, 1e9
 
 
 def make_manoeuvre(name: str, settings: Mapping[str, float]) -> Manoeuvre:
-    """Manoeuvre of a name with some of its settings given.
+    """Return the manoeuvre of a name with some of its settings given.
 
     Parameters
     ----------
@@ -48,6 +48,12 @@ def make_manoeuvre(name: str, settings: Mapping[str, float]) -> Manoeuvre:
     ------
     ManoeuvreError
         If there is no such manoeuvre, it has no such setting, or a value is out of range.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.manoeuvres import make_manoeuvre
+    >>> make_manoeuvre("step", {"amplitude": 0.02})
+    Step(amplitude=0.02, start=1.0)
     """
     if name not in MANOEUVRES:
         message = f"manoeuvre: {name!r}: expected one of {', '.join(MANOEUVRES)}"

@@ -10,7 +10,25 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Sine:
-    """``amplitude sin(2 pi frequency (t - start))`` for a number of cycles; 0 cycles never end."""
+    """``amplitude sin(2 pi frequency (t - start))`` for a number of cycles; 0 cycles never end.
+
+    Attributes
+    ----------
+    amplitude : float
+        Road-wheel steer angle, left positive [rad].
+    frequency : float
+        In Hz.
+    start : float
+        Time at which the steering begins [s].
+    cycles : float
+        Number of cycles; 0 never ends.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.manoeuvres import Sine
+    >>> round(Sine(amplitude=0.02, frequency=0.5)(0.5), 3)
+    0.02
+    """
 
     amplitude: float = 0.1
     frequency: float = 1.5 / math.tau
@@ -27,7 +45,26 @@ class Sine:
 
 @dataclass(frozen=True)
 class LaneChange(Sine):
-    """One cycle of a sine: out of the lane to the left and straight again in the next."""
+    """One cycle of a sine: out of the lane to the left and straight again in the next.
+
+    Attributes
+    ----------
+    amplitude : float
+        Road-wheel steer angle, left positive [rad].
+    frequency : float
+        In Hz.
+    start : float
+        Time at which the steering begins [s].
+    cycles : float
+        Number of cycles; 0 never ends.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.manoeuvres import LaneChange
+    >>> steering = LaneChange(amplitude=0.02)
+    >>> steering(0.5), round(steering(2.0), 5)
+    (0.0, 0.01995)
+    """
 
     start: float = 1.0
     cycles: float = 1.0
@@ -35,7 +72,21 @@ class LaneChange(Sine):
 
 @dataclass(frozen=True)
 class Step:
-    """``amplitude`` from `start` on."""
+    """``amplitude`` from `start` on.
+
+    Attributes
+    ----------
+    amplitude : float
+        Road-wheel steer angle, left positive [rad].
+    start : float
+        Time at which the steering begins [s].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.manoeuvres import Step
+    >>> [Step(amplitude=0.02)(time) for time in (0.5, 1.0)]
+    [0.0, 0.02]
+    """
 
     amplitude: float = 0.1
     start: float = 1.0
@@ -47,7 +98,23 @@ class Step:
 
 @dataclass(frozen=True)
 class Ramp:
-    """From 0 at `start` to `amplitude` over `rise_time`, then held (a ramp-step)."""
+    """From 0 at `start` to `amplitude` over `rise_time`, then held (a ramp step).
+
+    Attributes
+    ----------
+    amplitude : float
+        Road-wheel steer angle, left positive [rad].
+    start : float
+        Time at which the steering begins [s].
+    rise_time : float
+        Duration of the rise [s].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.manoeuvres import Ramp
+    >>> [Ramp(amplitude=0.02)(time) for time in (0.5, 1.5, 3.0)]
+    [0.0, 0.01, 0.02]
+    """
 
     amplitude: float = 0.1
     start: float = 1.0
@@ -60,7 +127,23 @@ class Ramp:
 
 @dataclass(frozen=True)
 class Pulse:
-    """``amplitude`` from `start` on for `width`, then straight again."""
+    """``amplitude`` from `start` on for `width`, then straight again.
+
+    Attributes
+    ----------
+    amplitude : float
+        Road-wheel steer angle, left positive [rad].
+    start : float
+        Time at which the steering begins [s].
+    width : float
+        Duration [s].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.manoeuvres import Pulse
+    >>> [Pulse(amplitude=0.02)(time) for time in (0.5, 1.2, 2.0)]
+    [0.0, 0.02, 0.0]
+    """
 
     amplitude: float = 0.1
     start: float = 1.0
@@ -73,7 +156,27 @@ class Pulse:
 
 @dataclass(frozen=True)
 class Chirp:
-    """A sine whose frequency rises linearly to `final_frequency` over `sweep_time`, then straight."""
+    """A sine whose frequency rises linearly to `final_frequency` over `sweep_time`, then straight.
+
+    Attributes
+    ----------
+    amplitude : float
+        Road-wheel steer angle, left positive [rad].
+    frequency : float
+        Frequency at the start [Hz].
+    start : float
+        Time at which the steering begins [s].
+    final_frequency : float
+        Frequency at the end [Hz].
+    sweep_time : float
+        Duration [s].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.manoeuvres import Chirp
+    >>> round(Chirp(amplitude=0.01)(2.0), 5)
+    -0.00922
+    """
 
     amplitude: float = 0.1
     frequency: float = 0.15

@@ -1,4 +1,4 @@
-"""What the page of an assessment tells of the vehicles and of their turn at low speed."""
+"""Data of the page of an assessment: the vehicles and their turn at low speed."""
 
 import math
 from collections.abc import Sequence

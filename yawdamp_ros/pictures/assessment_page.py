@@ -49,7 +49,7 @@ _SHOWN_DECAY, _POINTS = 0.002, 400
 
 
 class Heading(NamedTuple):
-    """What a page says of itself.
+    """Project, author and date of a page.
 
     Attributes
     ----------
@@ -271,7 +271,7 @@ def _hitches(unit: Unit) -> list[float]:
 
 
 def _length(vehicle: Vehicle) -> float:
-    """Of the drawn combination, stretched out."""
+    """Length of the drawn combination, stretched out [m]."""
     to_last = sum(rear - front for rear, front in vehicle.hitches)
     (front, _), (_, rear) = _outline(vehicle.units[0]), _outline(vehicle.units[-1])
     return front - to_last - rear

@@ -1,4 +1,4 @@
-"""What was simulated over what was measured, and what a fit found, as one HTML page."""
+"""Simulated over measured signals, and the results of a fit, as one HTML page."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType

@@ -26,7 +26,23 @@ FORMATS = {".png": "png", ".svg": "svg"}
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """Empty figure of a size in inches, laid out so that labels do not overlap."""
+    """Return an empty figure, laid out so that labels do not overlap.
+
+    Parameters
+    ----------
+    width, height : float
+        Size [in].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> from yawdamp_ros.pictures import new_figure
+    >>> new_figure(4.0, 3.0).get_size_inches().tolist()
+    [4.0, 3.0]
+    """
     return Figure(figsize=(width, height), layout="constrained")
 
 
@@ -74,6 +90,14 @@ def save(figure: Figure, path: str | Path, dpi: float = 120.0) -> None:
     ------
     PictureError
         If the name ends in neither .png nor .svg, or the file cannot be written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from yawdamp_ros.pictures import new_figure, save
+    >>> save(new_figure(4.0, 3.0), "picture.png")
+    >>> Path("picture.png").read_bytes()[1:4]
+    b'PNG'
     """
     form = FORMATS.get(Path(path).suffix.lower())
     if form is None:

@@ -1,4 +1,4 @@
-"""What a picture of runs shows, whatever draws it."""
+"""Panels of a picture of runs, for every renderer."""
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -131,7 +131,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
 
 
 def has(response: Response, output: Output) -> bool:
-    """Whether a response holds an output."""
+    """Return whether a response holds an output."""
     return output.name in response.extra or hasattr(response, output.name)
 
 

@@ -17,12 +17,26 @@ FLUSH_PERIOD = 0.5
 class BackgroundWriter:
     """A thread that feeds a `RunWriter` from a bounded queue.
 
-    Whatever becomes of the disk, `offer` returns at once: what cannot be written is counted in `lost`,
-    and the reason is kept in `failure`.
+    `offer` returns at once, whatever happens to the disk: messages that cannot be written are counted in
+    `lost`, and the reason is kept in `failure`.
 
     Parameters
     ----------
     writer : RunWriter
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from struct import pack
+    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
+    >>> directory = make_run_directory(Path("run"), numbered=False)
+    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
+    >>> from yawdamp_ros.runs import BackgroundWriter
+    >>> background = BackgroundWriter(writer)
+    >>> background.offer([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
+    >>> background.close()
+    >>> background.lost, background.failure
+    (0, None)
     """
 
     def __init__(self, writer: RunWriter) -> None:

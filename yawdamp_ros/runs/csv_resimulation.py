@@ -20,7 +20,7 @@ QUANTITIES = ("yaw", "yaw_rate", "lateral_acceleration", "articulation")
 
 
 class Parting(NamedTuple):
-    """Where a response and its repetition part.
+    """First mismatch between a response and its repetition.
 
     Attributes
     ----------

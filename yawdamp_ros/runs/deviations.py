@@ -36,7 +36,7 @@ class Deviations:
 
     @property
     def found(self) -> bool:
-        """Whether there is any."""
+        """True if there is any."""
         return bool(self._rising)
 
     def note(self, topic: str, time: float, field: str, recorded: float, repeated: float) -> None:

@@ -52,7 +52,7 @@ class Noise(NamedTuple):
 
     @property
     def present(self) -> bool:
-        """Whether there is any."""
+        """True if there is any."""
         return any(self[:3])
 
     def of_step(self, step: int, units: int) -> FloatArray:

@@ -16,7 +16,14 @@ FLOAT64 = "std_msgs/msg/Float64"
 
 
 class Of(Enum):
-    """What there is one of."""
+    """Number of instances of an output: one for the run, or one for each unit or joint.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.runs import OUTPUTS, Of
+    >>> [output.name for output in OUTPUTS if output.of is Of.JOINT]
+    ['articulation']
+    """
 
     RUN = "run"
     UNIT = "unit"
@@ -24,7 +31,7 @@ class Of(Enum):
 
 
 class Output(NamedTuple):
-    """Something that comes out of a run.
+    """A quantity, or a message, that comes out of a run.
 
     Attributes
     ----------
@@ -42,6 +49,12 @@ class Output(NamedTuple):
         Whether a value holds until the next; else it changes towards it.
     value : callable, optional
         Of its own quantity from a sample, where that is neither a field of it nor in its `Sample.extra`.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.runs import OUTPUTS
+    >>> next(output for output in OUTPUTS if output.name == "yaw_rate").names(["truck", "trailer"])
+    ['truck/yaw_rate', 'trailer/yaw_rate']
     """
 
     name: str

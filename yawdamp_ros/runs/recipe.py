@@ -39,7 +39,7 @@ def applied_topic(input_name: str) -> str:
 
 
 class Recipe:
-    """What every recording of a run holds besides its messages.
+    """Everything that a recording of a run holds besides its messages.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What comes of running a run again, alike for recordings and CSV files."""
+"""Results of repeating a run, alike for recordings and CSV files."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class Answer:
-    """Whether a run, run again, is what it was, and what was promised of that.
+    """Result of repeating a run: what was promised, and whether it holds.
 
     Attributes
     ----------

@@ -122,12 +122,12 @@ class Resimulation:
 
     @property
     def agrees(self) -> bool:
-        """Whether what is promised holds of all that was compared, and something was."""
+        """True if values were compared and all are as promised."""
         return self.difference is None and self.samples > 0
 
     @property
     def warning(self) -> str:
-        """What is wrong with the file, though this much could be read; else empty."""
+        """Defect of the file, though this much could be read; else empty."""
         return self._log.warning
 
     def compare(self) -> Iterator[float]:
@@ -189,7 +189,7 @@ class Resimulation:
             self.difference = self._deviations.first_beyond(TOLERANCE, self._sizes())
 
     def _settings(self, parameters: Mapping[str, Any]) -> SimParameters:
-        """What of the settings shows in the messages; earlier versions wrote other ones, too."""
+        """Settings that show in the messages; earlier versions wrote other ones, too."""
         shown = [
             field.name
             for field in fields(SimParameters)

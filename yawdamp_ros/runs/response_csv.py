@@ -17,7 +17,7 @@ def ground_columns(unit_names: Sequence[str]) -> list[str]:
 
 
 class ResponseCsv:
-    """A CSV file that takes samples.
+    """A CSV file that accepts samples.
 
     Parameters
     ----------
@@ -31,6 +31,20 @@ class ResponseCsv:
     ------
     LogError
         If the file cannot be written, here and at every write.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from yawdamp_ros import load_vehicle
+    >>> from yawdamp_ros.runs import ResponseCsv, read_response_csv
+    >>> from yawdamp_ros.simulation import make_motion
+    >>> from yawdamp_ros.stepping import TimeGrid
+    >>> motion = make_motion(load_vehicle("truck_trailer"), "consistent", speed=20.0, step_size=0.001)
+    >>> file = ResponseCsv(Path("run.csv"), motion, TimeGrid.of(0.001, 0.01))
+    >>> file.write(motion.run([0.02] * 1000, steps_per_sample=10))
+    >>> file.close()
+    >>> read_response_csv(Path("run.csv")).time.size
+    100
     """
 
     def __init__(self, path: Path, motion: Motion, grid: TimeGrid) -> None:

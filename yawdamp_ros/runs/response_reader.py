@@ -37,6 +37,20 @@ def read_response_csv(path: Path) -> Response:
     ------
     LogError
         If the file cannot be read or is no run; the message names the column or the line.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from yawdamp_ros import load_vehicle
+    >>> from yawdamp_ros.runs import ResponseCsv, read_response_csv
+    >>> from yawdamp_ros.simulation import make_motion
+    >>> from yawdamp_ros.stepping import TimeGrid
+    >>> motion = make_motion(load_vehicle("truck_trailer"), "consistent", speed=20.0, step_size=0.001)
+    >>> file = ResponseCsv(Path("run.csv"), motion, TimeGrid.of(0.001, 0.01))
+    >>> file.write(motion.run([0.02] * 1000, steps_per_sample=10))
+    >>> file.close()
+    >>> read_response_csv(Path("run.csv")).unit_names
+    ('truck', 'trailer')
     """
     with csv_reader(path) as rows:
         return _parse(rows, path)

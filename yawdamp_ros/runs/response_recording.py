@@ -39,6 +39,17 @@ def read_response_recording(path: Path) -> Response:
     ------
     LogError
         If it holds no run.
+
+    Examples
+    --------
+    >>> import subprocess
+    >>> import sys
+    >>> command = [sys.executable, "-m", "yawdamp_ros", "simulate", "--manoeuvre", "step", "--duration", "2"]
+    >>> _ = subprocess.run([*command, "--output", "run"], capture_output=True, check=True)
+    >>> from pathlib import Path
+    >>> from yawdamp_ros.runs import read_response_recording
+    >>> read_response_recording(Path("run")).yaw.shape
+    (201, 3)
     """
     decode = MessageDecoder()
     messages: dict[str, list[Any]] = defaultdict(list)

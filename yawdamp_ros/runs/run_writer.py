@@ -41,6 +41,12 @@ class Channel(NamedTuple):
         As in ``sensor_msgs/msg/Imu``.
     latched : bool
         Whether its last message is for subscribers that come later, too.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.runs import Channel
+    >>> Channel("/steering", "std_msgs/msg/Float64").qos["reliability"]
+    'reliable'
     """
 
     topic: str
@@ -58,7 +64,7 @@ SerialisedMessage = tuple[str, int, bytes]
 
 
 class RunWriter:
-    """Writes a run directory; each call returns when the data is handed to the file.
+    """Writer of a run directory; each call returns when the data is handed to the file.
 
     Parameters
     ----------
@@ -75,6 +81,18 @@ class RunWriter:
     ------
     LogError
         If the directory cannot be written, here and from every method.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from struct import pack
+    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
+    >>> directory = make_run_directory(Path("run"), numbered=False)
+    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
+    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
+    >>> writer.close()
+    >>> sorted(path.name for path in directory.iterdir())
+    ['metadata.yaml', 'run_0.mcap']
     """
 
     def __init__(
@@ -235,7 +253,22 @@ class RunWriter:
 
 
 def default_run_directory(vehicle_name: str) -> Path:
-    """``runs/<stamp>_<vehicle>`` below the working directory."""
+    """Return ``runs/<stamp>_<vehicle>`` below the working directory.
+
+    Parameters
+    ----------
+    vehicle_name : str
+
+    Returns
+    -------
+    Path
+
+    Examples
+    --------
+    >>> from yawdamp_ros.runs import default_run_directory
+    >>> default_run_directory("interlink").name.endswith("_interlink")
+    True
+    """
     stamp = time.strftime("%Y%m%d-%H%M%S")  # datetime refuses the offsets of odd time zones
     return Path("runs", f"{stamp}_{vehicle_name}")
 
@@ -257,6 +290,13 @@ def make_run_directory(wanted: Path, *, numbered: bool) -> Path:
     ------
     LogError
         If it exists or cannot be made.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from yawdamp_ros.runs import make_run_directory
+    >>> [make_run_directory(Path("run"), numbered=True).name for _ in range(2)]
+    ['run', 'run_2']
     """
     path, repeat = wanted, 1
     while True:

@@ -1,4 +1,4 @@
-"""What the last bit of a result depends on."""
+"""Parts of an installation that the last bit of a result depends on."""
 
 import platform
 

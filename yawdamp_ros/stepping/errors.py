@@ -4,4 +4,14 @@ from yawdamp_ros.errors import YawdampError
 
 
 class SteppingError(YawdampError):
-    """Steps, periods or durations that do not fit together, or a motion beyond all numbers."""
+    """Steps, periods or durations that do not fit together, or a motion beyond all numbers.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import SteppingError, TimeGrid
+    >>> try:
+    ...     TimeGrid.of(0.001, 0.0105)
+    ... except SteppingError as error:
+    ...     print(error)
+    step_size: 0.001 s: expected a whole number of steps in a sample period of 0.0105 s
+    """

@@ -1,4 +1,4 @@
-"""What the rest of the house knows of a model in time."""
+"""Interface of a model in time."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
@@ -25,6 +25,21 @@ class Motion(Protocol):
     state_names : sequence of str
     quantity_names : sequence of str
         What a sample has in `Sample.extra`.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.stepping import Stepper
+    >>> motion = Stepper(linear_model(load_vehicle("truck_trailer")), step_size=0.001)
+    >>> motion.input_names
+    ('steering', 'speed', 'reset')
+    >>> float(motion.run([0.02] * 1000).yaw_rate[0].round(4))
+    0.0753
+    >>> snapshot = motion.snapshot()
+    >>> motion.advance(500)
+    >>> motion.restore(snapshot)
+    >>> motion.step
+    1000
     """
 
     @property

@@ -1,4 +1,4 @@
-"""How many sample periods are due, by a clock that only ever goes forward."""
+"""Sample periods that are due by a monotonic clock."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ LEAST_CATCH_UP = 10
 
 
 class Due(NamedTuple):
-    """What a look at the clock asks for.
+    """Periods that a reading of the clock asks for.
 
     Attributes
     ----------
@@ -27,20 +27,27 @@ class Due(NamedTuple):
 
 
 class Pacer:
-    """Keeps simulated time beside a steady clock, at a rate.
+    """Simulated time beside a monotonic clock, at a rate.
 
-    The clock is asked, not counted in callbacks: a timer skips the cycles that it misses. A delay of up to
-    `CATCH_UP_NS`, or `LEAST_CATCH_UP` periods, is made up for; what is later is given up, so that a process
-    that was stopped does not run through minutes in a burst.
+    The clock is read, not counted in callbacks: a timer skips the cycles that it misses. A delay of up to
+    `CATCH_UP_NS`, or `LEAST_CATCH_UP` periods, is caught up; the rest is dropped, so that a process that
+    was stopped does not run through minutes in a burst.
 
     Parameters
     ----------
     period_ns : int
-        Sample period in ns of simulated time.
+        Sample period in simulated time [ns].
     rate : float
-        Simulated time over the clock's; 0: as fast as it goes.
+        Simulated time over clock time; 0 runs as fast as possible.
     now : int
-        Steady time of the first sample in ns.
+        Clock time of the first sample [ns].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import Pacer
+    >>> pacer = Pacer(period_ns=10_000_000, rate=1.0, now=0)
+    >>> pacer.due(now=25_000_000).periods
+    2
     """
 
     def __init__(self, period_ns: int, rate: float, now: int) -> None:
@@ -52,7 +59,7 @@ class Pacer:
 
     @property
     def paused(self) -> bool:
-        """Whether time stands."""
+        """True while time stands still."""
         return self._paused
 
     def pause(self, now: int) -> None:

@@ -1,4 +1,4 @@
-"""Where a unit is and which way it points, alike for everything that shows it."""
+"""Pose of a unit, alike for everything that shows it."""
 
 import cmath
 

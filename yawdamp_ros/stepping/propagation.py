@@ -79,7 +79,7 @@ class Propagation:
 
     @property
     def turned(self) -> float:
-        """What the lead unit has turned since the block's start, rad."""
+        """Yaw of the lead unit since the start of the block [rad]."""
         return float(self._after[self._taken, -1])
 
     def start_block(self) -> float:

@@ -24,7 +24,7 @@ SAMPLES_AT_ONCE = 1000
 
 @dataclass(frozen=True)
 class Response:
-    """What n units do over m samples.
+    """Motion of n units over m samples.
 
     Attributes
     ----------
@@ -43,6 +43,14 @@ class Response:
         Quantities that not every motion has, as `Sample.extra`.
     events : tuple of Event
         What happened, in order of time; where the last is final, the run ends there.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import simulate
+    >>> from yawdamp_ros.manoeuvres import Step
+    >>> response = simulate("truck_trailer", Step(amplitude=0.02), 2.0, sample_period=0.01)
+    >>> response.yaw_rate.shape
+    (201, 2)
     """
 
     unit_names: tuple[str, ...]
@@ -154,7 +162,7 @@ def respond(model: LinearModel, angles: FloatArray, grid: TimeGrid) -> Response:
 def linear_response(
     model: LinearModel, angles: FloatArray, step_size: float
 ) -> tuple[FloatArray, FloatArray]:
-    """States and outputs from rest: what `scipy.signal.lsim` computes where the input is held over steps.
+    """Return states and outputs from rest, as `scipy.signal.lsim` computes them for a held input.
 
     Parameters
     ----------
@@ -170,6 +178,16 @@ def linear_response(
         As `LinearModel.state_names`.
     outputs : ndarray, shape (k, 4 n - 1)
         As `LinearModel.output_names`; the same bits as a `Stepper`'s samples.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.stepping import linear_response
+    >>> model = linear_model(load_vehicle("truck_trailer"))
+    >>> states, outputs = linear_response(model, np.full(1001, 0.02), 0.001)
+    >>> states.shape, outputs.shape
+    ((1001, 4), (1001, 7))
     """
     motion = Propagation(propagator(model, step_size))
     motion.steering_angle = float(angles[0])

@@ -13,7 +13,7 @@ NOTHING: Mapping[str, FloatArray] = MappingProxyType({})
 
 
 class AppliedInput(NamedTuple):
-    """Something that acted on the model from a step on; a run is repeated from these alone.
+    """An input of the model from a step on; a run is repeated from these alone.
 
     Attributes
     ----------
@@ -22,6 +22,15 @@ class AppliedInput(NamedTuple):
         One of the motion's `input_names`, such as ``steering``.
     value : float
         Road-wheel steer angle in rad, speed in m/s, or 0 for a reset.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.stepping import AppliedInput, Stepper
+    >>> motion = Stepper(linear_model(load_vehicle("truck_trailer")), step_size=0.001)
+    >>> motion.apply(AppliedInput(0, "speed", 15.0))
+    >>> motion.speed
+    15.0
     """
 
     step: int
@@ -30,16 +39,22 @@ class AppliedInput(NamedTuple):
 
 
 class Command(NamedTuple):
-    """A steering command that was taken, as it was received.
+    """A steering command that was accepted, as it was received.
 
     Attributes
     ----------
     step : int
-        The newest one when it came; it acts from the next step on.
+        Newest step at the time of receipt; the command acts from the next step on.
     angle : float
-        As commanded, rad.
+        Commanded angle [rad].
     message : object
-        The message that held it; None where it came otherwise.
+        Message that held it; None for a command without one.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import Command
+    >>> Command(step=120, angle=0.02).angle
+    0.02
     """
 
     step: int
@@ -53,12 +68,19 @@ class Event(NamedTuple):
     Attributes
     ----------
     step : int
+        Step at which it begins.
     name : str
-        Of the kind of event, such as ``wheel_lift``.
+        Kind of event, such as ``wheel_lift``.
     where : str
         Unit, joint or wheel.
     final : bool
         Whether the motion means nothing from here on.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import Event
+    >>> Event(step=4880, name="jackknife", where="truck").final
+    False
     """
 
     step: int
@@ -68,7 +90,7 @@ class Event(NamedTuple):
 
 
 class Sample(NamedTuple):
-    """Everything known of an n-unit combination at one instant, or at m instants.
+    """State and outputs of an n-unit combination at one instant, or at m instants.
 
     Arrays of one instant are of the shapes below; those of m instants have an axis of m before.
 
@@ -100,6 +122,15 @@ class Sample(NamedTuple):
         What happened after the sample before.
     commands : tuple of Command
         What was received after the sample before.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.stepping import Stepper
+    >>> motion = Stepper(linear_model(load_vehicle("truck_trailer")), step_size=0.001)
+    >>> sample = motion.run([0.02] * 1000)
+    >>> int(sample.step), sample.yaw.shape
+    (1000, (2,))
     """
 
     step: npt.NDArray[np.int64]

@@ -1,4 +1,4 @@
-"""Where a run begins, and returns to when it is reset."""
+"""Start of a run, to which a reset returns."""
 
 from typing import NamedTuple
 
@@ -11,9 +11,15 @@ class Start(NamedTuple):
     x, y : float
         Centre of gravity of the lead unit in the ground frame [m].
     yaw : float
-        Of the lead unit [rad].
+        Yaw of the lead unit [rad].
     articulation : tuple of float
-        Of every joint [rad]; empty: straight.
+        Articulation of every joint [rad]; empty for a straight combination.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import Start
+    >>> Start(x=10.0, yaw=0.5).articulation
+    ()
     """
 
     x: float = 0.0

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 
 class SteeringActuator:
-    """A rate limit, then a first-order lag; either may be off.
+    """Rate limit and first-order lag between a command and the road wheels; either may be off.
 
     Over a step the command is held, and the lag is its exact solution.
 
@@ -17,6 +17,13 @@ class SteeringActuator:
         Of the lag in s; 0: none.
     rate_limit : float
         Of the road-wheel angle in rad/s; 0: none.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import SteeringActuator
+    >>> actuator = SteeringActuator(step_size=0.01, time_constant=0.0, rate_limit=0.5)
+    >>> [round(actuator.follow(0.02), 3) for _ in range(5)]
+    [0.005, 0.01, 0.015, 0.02, 0.02]
     """
 
     def __init__(self, step_size: float, time_constant: float, rate_limit: float) -> None:

@@ -1,4 +1,4 @@
-"""What becomes of a steering command before it reaches the actuator."""
+"""Checks of a steering command before it reaches the actuator."""
 
 import math
 
@@ -95,7 +95,7 @@ class SteeringInput:
         return None if self._received_at is None else step - self._received_at
 
     def timed_out(self, step: int) -> bool:
-        """Whether commands came once and have been silent for longer than the timeout."""
+        """True if commands have come and none has for longer than the timeout."""
         silence = self.silence(step)
         return silence is not None and silence > self.timeout_steps
 

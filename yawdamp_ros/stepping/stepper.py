@@ -49,6 +49,15 @@ class Stepper:
     model : LinearModel
     step_size : float
         In s.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.stepping import Stepper
+    >>> motion = Stepper(linear_model(load_vehicle("truck_trailer")), step_size=0.001)
+    >>> sample = motion.run([0.02] * 1000)
+    >>> sample.yaw_rate.round(4).tolist()
+    [0.0753, 0.0552]
     """
 
     input_names: Sequence[str] = ("steering", "speed", "reset")

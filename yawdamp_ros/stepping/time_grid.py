@@ -33,6 +33,13 @@ class TimeGrid:
         Length of a step in ns.
     steps_per_sample : int
         Steps from one published sample to the next.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import TimeGrid
+    >>> grid = TimeGrid.of(step_size=0.001, sample_period=0.01)
+    >>> grid.steps_per_sample, grid.samples_in(2.0)
+    (10, 200)
     """
 
     step_ns: int

@@ -4,7 +4,14 @@ from enum import StrEnum
 
 
 class Verdict(StrEnum):
-    """Key of what was done with a command or a speed."""
+    """Keys that say what the node did with a command or a speed.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.stepping import Verdict
+    >>> list(Verdict)[0].value
+    'accepted'
+    """
 
     ACCEPTED = "accepted"
     CLAMPED = "clamped"

@@ -1,4 +1,4 @@
-"""What a vehicle combination is, and how one is read from a file."""
+"""Vehicle combinations as records, and their files."""
 
 from yawdamp_ros.vehicle.complete import Assumed, assumed, complete, given
 from yawdamp_ros.vehicle.errors import VehicleError

@@ -41,12 +41,18 @@ class Assumed(NamedTuple):
     Attributes
     ----------
     key : str
-        As ``--set`` takes it.
+        Key of the value, as ``--set`` takes it.
     value : float, bool or str
     unit : str
-        Of the value; empty where there is none.
+        Unit of the value; empty where there is none.
     source : str
-        See the module.
+        Where the value comes from; the module lists the sources in full.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import assumed, load_vehicle
+    >>> assumed(load_vehicle("truck_trailer"))[0]
+    Assumed(key='friction', value=0.8, unit='', source='Factbook, dry road')
     """
 
     key: str
@@ -56,7 +62,7 @@ class Assumed(NamedTuple):
 
 
 class Default(NamedTuple):
-    """How a value is found that is not given: its unit, its source, and the rule."""
+    """Default of a value that is not given: its unit, its source, and the rule."""
 
     unit: str
     source: str
@@ -64,12 +70,12 @@ class Default(NamedTuple):
 
 
 def is_dolly(unit: Unit) -> bool:
-    """Whether a towed unit counts as a dolly, which carries no body."""
+    """Return whether a towed unit counts as a dolly, which carries no body."""
     return unit.front_hitch is not None and unit.mass <= LIGHT_UNIT
 
 
 def _couples_roll(unit: Unit) -> bool:
-    """Whether the rear hitch lies over the axles, where fifth wheels do, and not behind them."""
+    """Return whether the rear hitch lies over the axles, where fifth wheels do, and not behind them."""
     return unit.rear_hitch is not None and unit.rear_hitch >= min(axle.position for axle in unit.axles)
 
 

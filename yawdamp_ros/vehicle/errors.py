@@ -4,7 +4,7 @@ from yawdamp_ros.errors import YawdampError
 
 
 class VehicleError(YawdampError):
-    """A vehicle that cannot be used, said in one line.
+    """A vehicle that cannot be used; the message is one line.
 
     Parameters
     ----------
@@ -14,6 +14,15 @@ class VehicleError(YawdampError):
         Path of the wrong key, as `--set` takes it (``units.1.mass``); empty for the whole file.
     problem : str
         The value found and what was expected.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import VehicleError, load_vehicle
+    >>> try:
+    ...     load_vehicle("truck_trailer", ["units.1.mass=-5"])
+    ... except VehicleError as error:
+    ...     print(error)
+    truck_trailer: units.1.mass: -5: expected a mass in kg, from 0.001 to 1e7
     """
 
     def __init__(self, source: str, key: str, problem: str) -> None:

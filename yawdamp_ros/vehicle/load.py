@@ -45,7 +45,7 @@ UNIT_KEYS = (
 
 
 class VehicleSource(NamedTuple):
-    """What a vehicle was read from, enough to read it again anywhere.
+    """Source of a vehicle, enough to read it again anywhere.
 
     Attributes
     ----------
@@ -53,6 +53,12 @@ class VehicleSource(NamedTuple):
         Of the vehicle file.
     overrides : tuple of str
         Changes to it, each ``KEY=VALUE``.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import VehicleSource, vehicle_text
+    >>> VehicleSource(vehicle_text("interlink"), ("units.1.mass=4156",)).overrides
+    ('units.1.mass=4156',)
     """
 
     text: str
@@ -60,7 +66,18 @@ class VehicleSource(NamedTuple):
 
 
 def builtin_vehicles() -> tuple[str, ...]:
-    """Names of the vehicles that come with the package."""
+    """Return the names of the vehicles that come with the package.
+
+    Returns
+    -------
+    tuple of str
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import builtin_vehicles
+    >>> builtin_vehicles()[:2]
+    ('a_double', 'a_double_ghandriz')
+    """
     return tuple(sorted(path.stem for path in _builtin_directory().glob("*.yaml")))
 
 
@@ -89,6 +106,15 @@ def load_vehicle(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicle:
     -----
     UserWarning
         If a number of a file is hard to believe.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_vehicle
+    >>> interlink = load_vehicle("interlink", ["units.1.mass=4156"])
+    >>> interlink.unit_names
+    ('truck', 'trailer_1', 'trailer_2')
+    >>> interlink.units[1].mass
+    4156.0
     """
     loaded, doubts = examined_vehicle(vehicle_text(vehicle), str(vehicle), overrides)
     if str(vehicle) not in builtin_vehicles():
@@ -100,7 +126,7 @@ def load_vehicle(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicle:
 def examined_vehicle(
     text: str, source: str, overrides: Sequence[str] = ()
 ) -> tuple[Vehicle, tuple[str, ...]]:
-    """Turn the text of a vehicle file into a `Vehicle`, and say what about it is hard to believe.
+    """Turn the text of a vehicle file into a `Vehicle`, and list what is hard to believe about it.
 
     Parameters
     ----------
@@ -117,6 +143,13 @@ def examined_vehicle(
     ------
     VehicleError
         As `parse_vehicle`, and if no vehicle can be like it.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import examined_vehicle, vehicle_text
+    >>> _, lines = examined_vehicle(vehicle_text("truck_trailer"), "truck_trailer.yaml", ["speed=60"])
+    >>> len(lines)
+    1
     """
     vehicle = parse_vehicle(text, source, overrides)
     found = check_plausible(vehicle, source)
@@ -127,12 +160,27 @@ def examined_vehicle(
 
 
 def vehicle_text(vehicle: str | Path) -> str:
-    """Text of the file behind a builtin name or a path.
+    """Return the text of the file behind a builtin name or a path.
+
+    Parameters
+    ----------
+    vehicle : str or Path
+        One of `builtin_vehicles`, or the path of a YAML file.
+
+    Returns
+    -------
+    str
 
     Raises
     ------
     VehicleError
         If there is no such file, or it cannot be read.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import vehicle_text
+    >>> vehicle_text("interlink").splitlines()[1]
+    'name: interlink'
     """
     source = str(vehicle) or "''"  # an empty path would be the working directory
     builtins = builtin_vehicles()
@@ -169,6 +217,12 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     ------
     VehicleError
         If the text or an override is not valid.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import parse_vehicle, vehicle_text
+    >>> parse_vehicle(vehicle_text("interlink"), "interlink").speed
+    22.22222222222222
     """
     data = canonical(overridden_data(text, source, overrides), source)
     if overrides or not _is_builtin(text, source):
@@ -215,6 +269,15 @@ def load_stack(
     ------
     VehicleError
         If the text, an override or any of the values is not valid.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from yawdamp_ros.vehicle import load_stack, vehicle_text
+    >>> text = vehicle_text("truck_trailer")
+    >>> stack = load_stack(text, "truck_trailer", [], {"units.1.mass": np.array([1e4, 2e4])})
+    >>> stack.units[1].mass.tolist()
+    [10000.0, 20000.0]
     """
     data = overridden_data(text, source, overrides)
     # The schema holds each key to a range: a stack keeps to it if its extremes do.
@@ -377,7 +440,7 @@ def _tyre(tyre: Any, source: str) -> Any:  # noqa: ANN401
 
 
 def _added_loads(units: Sequence[dict[str, Any]], source: str) -> list[list[Any]]:
-    """Of every axle of every unit, the load that the loads of the file add to what the file gives."""
+    """Load that the loads of the file add to every axle of every unit."""
     by_load = any("tyre_load" in axle or "static_load" in axle for unit in units for axle in unit["axles"])
     if by_load and any(unit.get("load") for unit in units):
         _check_supports(units, source)

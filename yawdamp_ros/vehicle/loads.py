@@ -1,4 +1,4 @@
-"""What loading does to a unit: mass, centre of gravity, inertia, and the loads of its axles.
+"""Effect of loads on a unit: mass, centre of gravity, inertia, and the loads of its axles.
 
 A unit is described without its loads, positions from its unladen centre of gravity. Loads add mass, move
 the centre of gravity, and add inertia by the parallel-axis theorem. Hitches and axles stay where they are
@@ -21,7 +21,7 @@ Number = Any
 
 
 class LoadedUnit(NamedTuple):
-    """What loads make of a unit.
+    """A unit with its loads.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ def loaded(unit: dict[str, Any]) -> LoadedUnit:
 
 
 def added_axle_loads(units: Sequence[dict[str, Any]]) -> list[list[Number]]:
-    """What the loads of a vehicle file add to the load of every axle.
+    """Return the load that the loads of a vehicle file add to every axle.
 
     Parameters
     ----------

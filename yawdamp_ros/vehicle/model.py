@@ -57,6 +57,12 @@ class Axle:
     driven : bool or None
     brake_share : float or None
         Share of the combination's braking force, relative to the other axles'.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import Axle
+    >>> Axle(position=-4.4, cornering_stiffness=1.2e6).steered
+    False
     """
 
     position: float
@@ -110,6 +116,13 @@ class Unit:
         Body before the foremost and behind the rearmost axle or hitch [m], for drawings and swept paths.
     width, height : float or None
         Of the body [m], for drawings and swept paths.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import Axle, Unit
+    >>> axles = (Axle(position=0.0, cornering_stiffness=6e5),)
+    >>> Unit("dolly", mass=2500.0, yaw_inertia=2000.0, axles=axles, front_hitch=3.5, rear_hitch=0.1).name
+    'dolly'
     """
 
     name: str
@@ -158,6 +171,15 @@ class Vehicle:
 
     Fields that are None are not given in the vehicle's file; `complete` fills them with documented defaults,
     but for those of the powertrain, which have none.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> vehicle = load_vehicle("truck_trailer")
+    >>> vehicle.unit_names
+    ('truck', 'trailer')
+    >>> vehicle.hitches
+    ((-2.539, 7.483),)
     """
 
     name: str
@@ -194,7 +216,28 @@ class Vehicle:
 
 
 def unstacked(stack: Vehicle, index: int) -> Vehicle:
-    """One vehicle of a stack, its numbers floats."""
+    """Return one vehicle of a stack, with numbers that are floats.
+
+    Parameters
+    ----------
+    stack : Vehicle
+        Vehicle whose numbers may be arrays, shape (k,).
+    index : int
+        Place in these arrays.
+
+    Returns
+    -------
+    Vehicle
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from yawdamp_ros.vehicle import load_stack, unstacked, vehicle_text
+    >>> masses = {"units.1.mass": np.array([1e4, 2e4])}
+    >>> stack = load_stack(vehicle_text("truck_trailer"), "truck_trailer", [], masses)
+    >>> unstacked(stack, 1).units[1].mass
+    20000.0
+    """
 
     def pick(value: Any) -> Any:  # noqa: ANN401 - of a record's field
         return float(value[index]) if isinstance(value, np.ndarray) else value

@@ -1,4 +1,4 @@
-"""Whether the numbers of a vehicle can be those of a heavy vehicle in SI units.
+"""Checks that the numbers of a vehicle can be those of a heavy vehicle in SI units.
 
 A file in which one number is in tonnes or in kN/rad is a valid file of another vehicle. What such a mistake
 does to axle loads, and to the ratio of stiffness to load, which is 3 to 12 per rad for truck tyres as they
@@ -56,6 +56,12 @@ class Suspicion(NamedTuple):
         Value, what was expected, and the likely mistake.
     impossible : bool
         Whether no vehicle can have it.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle, suspicions
+    >>> suspicions(load_vehicle("truck_trailer", ["speed=60"]))[0].key
+    'speed'
     """
 
     rule: str

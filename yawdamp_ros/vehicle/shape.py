@@ -1,4 +1,4 @@
-"""What a unit looks like from outside, as far as its file tells."""
+"""Outline of a unit, as far as its file gives it."""
 
 from yawdamp_ros.vehicle.model import Unit
 

@@ -6,7 +6,7 @@ from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Unit, Vehicle
 
 
 class Supports(NamedTuple):
-    """What a unit rests on.
+    """Places on which a unit rests.
 
     The lead unit rests on two groups of axles, a towed one on its front hitch and its axles.
 
@@ -16,6 +16,12 @@ class Supports(NamedTuple):
         Positions from the centre of gravity [m]; equal where the unit has one support only.
     front_axles, rear_axles : tuple of int
         Axles of each support; a front hitch has none.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle, supports
+    >>> supports(load_vehicle("interlink").units[0])
+    Supports(front=0.04, rear=-4.419, front_axles=(0,), rear_axles=(1, 2))
     """
 
     front: float
@@ -33,6 +39,13 @@ class StaticLoads(NamedTuple):
         In N.
     front_hitch : float
         In N, positive where the unit rests on the one ahead; 0 of the lead unit.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle, static_loads
+    >>> truck, trailer = static_loads(load_vehicle("truck_trailer"))
+    >>> [round(load) for load in trailer.axles]
+    [107591]
     """
 
     axles: tuple[float, ...]
@@ -40,10 +53,25 @@ class StaticLoads(NamedTuple):
 
 
 def supports(unit: Unit) -> Supports:
-    """Return what a unit rests on.
+    """Return the places on which a unit rests.
 
     The steered axles of a lead unit are its front support; where all are steered, or none, it is the
     foremost. A towed unit whose axles do not lie behind its front hitch rests on its axles alone.
+
+    Parameters
+    ----------
+    unit : Unit
+
+    Returns
+    -------
+    Supports
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle, supports
+    >>> found = supports(load_vehicle("interlink").units[0])
+    >>> found.front_axles, found.rear_axles
+    ((0,), (1, 2))
     """
     every = tuple(range(len(unit.axles)))
     positions = [axle.position for axle in unit.axles]

@@ -56,6 +56,23 @@ class MagicFormula:
         By `COEFFICIENTS`, in SI units.
     relaxation_length : float or None
         At the nominal load, from PTY1, PTY2 and UNLOADED_RADIUS [m]; None where the file does not give it.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import parse_tir
+    >>> text = '''[MODEL]
+    ... PROPERTY_FILE_FORMAT = 'PAC2002'
+    ... [VERTICAL]
+    ... FNOMIN = 35000
+    ... [LATERAL_COEFFICIENTS]
+    ... PCY1 = 1.2
+    ... PDY1 = 0.8
+    ... PKY1 = -12
+    ... PKY2 = 1.7
+    ... '''
+    >>> tyre = parse_tir(text, "truck.tir")
+    >>> tyre.coefficients[:3]
+    (35000.0, 1.2, 0.8)
     """
 
     name: str
@@ -79,6 +96,24 @@ def read_tir(path: Path) -> MagicFormula:
     VehicleError
         If there is no such file, or it is not a valid one; the message names file, line or key, and what was
         expected.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from yawdamp_ros.vehicle import read_tir
+    >>> text = '''[MODEL]
+    ... PROPERTY_FILE_FORMAT = 'PAC2002'
+    ... [VERTICAL]
+    ... FNOMIN = 35000
+    ... [LATERAL_COEFFICIENTS]
+    ... PCY1 = 1.2
+    ... PDY1 = 0.8
+    ... PKY1 = -12
+    ... PKY2 = 1.7
+    ... '''
+    >>> _ = Path("truck.tir").write_text(text, encoding="utf-8")
+    >>> read_tir(Path("truck.tir")).name
+    'truck.tir'
     """
     return parse_tir(tir_text(path), str(path))
 

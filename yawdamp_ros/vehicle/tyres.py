@@ -13,7 +13,7 @@ POUNDS_FORCE_PER_NEWTON = 0.2248
 
 
 def fancher_stiffness(load: float) -> float:
-    """Cornering stiffness of one tyre by Fancher's generic truck tyre.
+    """Return the cornering stiffness of one tyre by Fancher's generic truck tyre.
 
     Parameters
     ----------
@@ -24,12 +24,18 @@ def fancher_stiffness(load: float) -> float:
     -------
     float
         In N/rad.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import fancher_stiffness
+    >>> round(fancher_stiffness(30000.0))
+    133247
     """
     return math.degrees(1.0) * load * _per_degree(load)
 
 
 def printed_stiffness(load: float) -> float:
-    """Cornering stiffness of one **axle** as Table 5 of Frerichs (2012) has it.
+    """Return the cornering stiffness of one **axle** as Table 5 of Frerichs (2012) prints it.
 
     Whatever the number of tyres on the axle, it is ``360 z (0.1 - z_lbf / 300000)`` of the load z per
     tyre; kept to show where that table comes from. It gives the printed numbers to 2e-5.
@@ -43,6 +49,12 @@ def printed_stiffness(load: float) -> float:
     -------
     float
         In N/rad.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import printed_stiffness
+    >>> round(printed_stiffness(32864.0))
+    891752
     """
     return 360.0 * load * _per_degree(load)
 
