@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from yawdamp_ros import linear_model, load_vehicle
-from yawdamp_ros.drives import Channel, Drive, inputs_of, predict
-from yawdamp_ros.drives.by_motion import predict_by_motion
-from yawdamp_ros.stepping import Stepper
+from yawdamp_ros.drives import Channel, Drive, Inputs, inputs_of, predict
+from yawdamp_ros.drives.identification import predictor_of
+from yawdamp_ros.simulation import make_motion
+from yawdamp_ros.stepping import AppliedInput, Response, Stepper, TimeGrid
+from yawdamp_ros.vehicle import Vehicle
 
 TIMES = 0.01 * np.arange(1001)
 
@@ -68,11 +70,37 @@ def test_acceleration_stands_in_for_a_speed() -> None:
     np.testing.assert_allclose(inputs.speed, 10.0 + 0.5 * TIMES, atol=1e-9)
 
 
-def test_step_by_step_it_is_the_same() -> None:
+def stepped(vehicle: Vehicle, inputs: Inputs, model: str) -> Response:
+    """Run of a motion, five steps from one instant to the next."""
+    motion = make_motion(vehicle, model, float(inputs.speed[0]), 0.002)
+    motion.apply(AppliedInput(0, "steering", float(inputs.mean_steering[0])))
+    samples = [motion.sample()]
+    for speed, angle in zip(inputs.speed[1:].tolist(), inputs.mean_steering[1:].tolist(), strict=True):
+        motion.advance(5)
+        motion.apply(AppliedInput(motion.step, "speed", speed))
+        motion.apply(AppliedInput(motion.step, "steering", angle))
+        samples.append(motion.sample())
+    return Response.of(samples, vehicle.unit_names, TimeGrid.of(0.002, 0.01))
+
+
+@pytest.mark.parametrize("model, tolerance", [("consistent", 5e-4), ("nonlinear", 1e-9)])
+def test_step_by_step_it_is_the_same(model: str, tolerance: float) -> None:
     vehicle = load_vehicle("truck_trailer")
-    made = drive(0.03 * np.sin(TIMES), speed=15.0 + np.sin(TIMES))
-    inputs = inputs_of(made, 20.0)
-    quick, slow = predict(vehicle, inputs), predict_by_motion(vehicle, inputs, "consistent")
-    assert quick.keys() >= slow.keys()
-    for output, values in slow.items():
-        np.testing.assert_allclose(quick[output], values, atol=5e-4 * np.abs(values).max())
+    inputs = inputs_of(drive(0.03 * np.sin(TIMES), speed=15.0 + np.sin(TIMES)), 20.0)
+    found, run = predictor_of(model)(vehicle, inputs), stepped(vehicle, inputs, model)
+    for index, unit in enumerate(vehicle.unit_names):
+        for quantity in ("yaw_rate", "lateral_acceleration", "yaw"):
+            values = getattr(run, quantity)[:, index]
+            np.testing.assert_allclose(
+                found[f"{unit}/{quantity}"], values, atol=tolerance * np.abs(values).max()
+            )
+    angles = run.articulation[:, 0]
+    np.testing.assert_allclose(found["articulation_1"], angles, atol=tolerance * np.abs(angles).max())
+
+
+def test_after_a_rollover_the_nonlinear_model_says_nothing() -> None:
+    made = drive(np.full(1001, 0.3), speed=np.full(1001, 25.0))
+    found = predictor_of("nonlinear")(load_vehicle("tractor_semitrailer"), inputs_of(made, 25.0))
+    unknown = np.isnan(found["tractor/yaw_rate"])
+    assert 50 < np.argmax(unknown) < 900
+    assert unknown[np.argmax(unknown) :].all()

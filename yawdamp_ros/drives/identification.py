@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
 
-from yawdamp_ros.drives.by_motion import predict_by_motion
 from yawdamp_ros.drives.channel import QUANTITIES, Channel, quantity_of
 from yawdamp_ros.drives.comparison import ChannelComparison, compare
 from yawdamp_ros.drives.drive import Drive
@@ -144,7 +143,12 @@ def predictor_of(model: str) -> Predictor:
     model : str
         One of `yawdamp_ros.simulation.MODELS`.
     """
-    return partial(predict if model in LINEAR_MODELS else predict_by_motion, model=model)
+    if model in LINEAR_MODELS:
+        return partial(predict, model=model)
+    # Numba takes long to import, which the linear models do without.
+    from yawdamp_ros.drives.nonlinear_prediction import predict_nonlinear  # noqa: PLC0415
+
+    return predict_nonlinear
 
 
 def identify(  # noqa: PLR0913 - each is one setting of a fit

@@ -1,6 +1,8 @@
 """The largest likelihood of measured series under a model with parameters, and its curvature."""
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager, nullcontext
 from typing import NamedTuple
 
 import numpy as np
@@ -74,14 +76,20 @@ def maximise(
     spreads : sequence of float
         Standard deviation that is expected of each series' offset.
     """
+    # Matrices are small: several threads would wait for one another far longer than they work.
+    with _one_thread():
+        widths = np.array([*(WIDE for _ in parameters), *spreads])
+        return _maximum(_Problem(parameters, outputs, times, series, widths))
+
+
+def _maximum(problem: "_Problem") -> Fit:
     from scipy.optimize import least_squares  # noqa: PLC0415 - it loads longer than most commands run
 
-    problem = _Problem(parameters, outputs, times, series, np.array([*(WIDE for _ in parameters), *spreads]))
     at = problem.start()
     noises = [independent(each) for each in problem.residuals(at)]
     for _ in range(MOST_ROUNDS):
         solution = least_squares(
-            problem.whitened, at, problem.jacobian, x_scale="jac", ftol=1e-9, xtol=1e-9, args=(noises,)
+            problem.whitened, at, problem.jacobian, x_scale="jac", ftol=1e-7, xtol=1e-5, args=(noises,)
         )
         moved = solution.x - at
         at = solution.x
@@ -111,7 +119,9 @@ class _Problem:
         self._spreads = spreads
         self._series = series
         self._groups = _together(series)
+        # What was computed last, and where: the same place is asked for more than once.
         self._known: tuple[FloatArray, list[FloatArray]] | None = None
+        self._slopes: tuple[FloatArray, list[FloatArray]] | None = None
 
     def start(self) -> FloatArray:
         at = np.zeros(len(self._parameters) + len(self._series))
@@ -161,34 +171,51 @@ class _Problem:
 
     def _derivatives(self, at: FloatArray) -> list[FloatArray]:
         """Derivatives of the residuals by the coordinates, shape (k, m, p) for each group."""
+        if self._slopes is not None and np.array_equal(self._slopes[0], at):
+            return self._slopes[1]
         count = len(self._parameters)
         now = self._predicted(at[:count])
         found = [np.zeros((len(_means(part)), part.shape[1], len(at))) for part in now]
-        for index in range(count):
-            moved = at[:count].copy()
-            moved[index] += DIFFERENCE
-            for place, (before, after) in enumerate(zip(now, self._predicted(moved), strict=True)):
+        with ThreadPoolExecutor() as executor:
+            moved = executor.map(self._prediction, at[:count] + DIFFERENCE * np.eye(count))
+        for index, parts in enumerate(moved):
+            for place, (before, after) in enumerate(zip(now, parts, strict=True)):
                 found[place][:, :, index] = _means(before - after) / DIFFERENCE
         for group, part in zip(self._groups, found, strict=True):
             for column, index in enumerate(group):
                 part[:, column, count + index] = -1.0
+        self._slopes = at.copy(), found
         return found
 
     def _predicted(self, at: FloatArray) -> list[FloatArray]:
         if self._known is None or not np.array_equal(self._known[0], at):
-            values = {each.name: each.value(place) for each, place in zip(self._parameters, at, strict=True)}
-            outputs = self._outputs(values)
-            parts = [
-                np.column_stack(
-                    [
-                        np.interp(self._series[index].times, self._times, outputs[self._series[index].name])
-                        for index in group
-                    ]
-                )
-                for group in self._groups
-            ]
-            self._known = at.copy(), parts
+            self._known = at.copy(), self._prediction(at)
         return self._known[1]
+
+    def _prediction(self, at: FloatArray) -> list[FloatArray]:
+        values = {
+            each.name: each.value(place) for each, place in zip(self._parameters, at.tolist(), strict=True)
+        }
+        outputs = self._outputs(values)
+        return [
+            np.column_stack(
+                [
+                    np.interp(self._series[index].times, self._times, outputs[self._series[index].name])
+                    for index in group
+                ]
+            )
+            for group in self._groups
+        ]
+
+
+def _one_thread() -> AbstractContextManager[object]:
+    """Keep the BLAS to one thread, where threadpoolctl is there to do so."""
+    try:
+        from threadpoolctl import threadpool_limits  # noqa: PLC0415 - rosdep does not bring it
+    except ImportError:
+        return nullcontext()
+    limits: AbstractContextManager[object] = threadpool_limits(1, "blas")
+    return limits
 
 
 def _together(series: Sequence[Series]) -> list[list[int]]:
