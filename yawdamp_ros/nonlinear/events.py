@@ -132,6 +132,8 @@ def named_events(steps: IntArray, names: tuple[str, ...], axles: tuple[int, ...]
     axles : tuple of int
         Number of axles of each unit.
     """
+    if (steps == NEVER).all():  # as nearly always
+        return
     places = [(name, axle, side) for name, count in zip(names, axles, strict=True) for axle in range(count)
               for side in ("left", "right")]  # fmt: skip
     labels = [
