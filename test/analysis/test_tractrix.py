@@ -106,13 +106,29 @@ def test_it_is_an_independent_integration_to_a_millimetre(name: str) -> None:
             velocity = (forward + 1j * unit.hitch * turning) * heading
         return np.array(out)
 
-    start = turn.position[0].astype(complex)
+    start, found = turn.position[0].astype(complex), turn.position.copy()
     for begin, end in ((0.0, arc), (arc, float(turn.way[-1]))):
         chosen = (turn.way >= begin - 1e-9) & (turn.way <= end + 1e-9)
         at = np.clip(turn.way[chosen], begin, end)
         solved = solve_ivp(rates, (begin, end), start, t_eval=at, rtol=1e-11, atol=1e-11)
-        assert np.abs(solved.y.T - turn.position[chosen]).max() < MILLIMETRE
+        found[chosen] = solved.y.T
         start = solved.y[:, -1]
+    assert np.abs(found - turn.position).max() < MILLIMETRE
+    # Headings by the rods, and what follows from both: swept path, frontal swing, tail swing.
+    places = np.array([guide(way)[0] for way in turn.way])
+    headings = []
+    for index, unit in enumerate(geometry):
+        rigid = complex(unit.leader, -unit.guide if index == 0 else 0.0)
+        heading = (places - found[:, index]) / rigid
+        headings.append(np.unwrap(np.angle(heading)))
+        places = found[:, index] + unit.hitch * heading / np.abs(heading)
+    other = turn._replace(position=found, yaw=np.column_stack(headings))
+    for one, both in zip(envelope(turn), envelope(other), strict=True):
+        assert np.abs(one - both).max() < MILLIMETRE
+    for index, unit in enumerate(geometry):
+        for end in (unit.front, unit.rear):
+            paths = [np.array(each.path(index, end, -unit.half_width)) for each in (turn, other)]
+            assert np.abs(paths[0] - paths[1]).max() < MILLIMETRE
 
 
 @pytest.mark.parametrize("name", ["a_double", "interlink", "tractor_semitrailer"])

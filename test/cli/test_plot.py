@@ -9,7 +9,7 @@ import pytest
 from yawdamp_ros.cli import run
 from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.simulation import simulate
-from yawdamp_ros.vehicle import load_vehicle
+from yawdamp_ros.vehicle import complete, load_vehicle
 
 
 @pytest.fixture
@@ -77,3 +77,44 @@ def test_more_runs_than_can_be_told_apart_are_refused(
 ) -> None:
     assert run(["plot", *[str(run_csv)] * 7]) == 2
     assert "7 runs in one picture; expected at most 6" in capsys.readouterr().err
+
+
+def test_what_a_recorded_run_sweeps_is_drawn_with_its_own_vehicle(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    recorded = tmp_path / "turn"
+    drive = ["--model", "nonlinear", "--speed", "3", "--manoeuvre", "step", "--amplitude", "0.25"]
+    assert (
+        run(["simulate", "--vehicle", "a_double", *drive, "--duration", "6", "--output", str(recorded)]) == 0
+    )
+    picture = tmp_path / "swept.png"
+    assert run(["plot", str(recorded), "--swept", "--output", str(picture)]) == 0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert run(["plot", str(recorded), "--swept", "--vehicle", "interlink", "--output", str(picture)]) == 2
+    assert "interlink has others" in capsys.readouterr().err
+
+
+def test_a_swept_surface_reaches_to_the_corners_of_the_bodies() -> None:
+    from yawdamp_ros.pictures.swept import swept_figure  # noqa: PLC0415 - as the command does
+
+    vehicle = load_vehicle("tractor_semitrailer")
+    response = simulate(vehicle, lambda _: 0.0, 2.0, sample_period=0.02, speed=10.0)
+    (axes,) = swept_figure("straight", response, vehicle).axes
+    corners = np.concatenate([path.vertices for each in axes.collections for path in each.get_paths()])
+    widest = max(unit.width for unit in complete(vehicle).units)
+    assert np.abs(corners[:, 1]).max() == pytest.approx(0.5 * widest)
+
+
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (["--swept"], "--swept: expected one RUN"),
+        (["{run}", "--swept"], "a CSV file does not hold its vehicle"),
+        (["{run}", "--swept", "--vehicle", "interlink"], "it holds no paths"),
+    ],
+)
+def test_what_cannot_be_swept_is_one_line(
+    arguments: list[str], said: str, run_csv: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["plot", *(each.format(run=run_csv) for each in arguments)]) == 2
+    assert said in capsys.readouterr().err

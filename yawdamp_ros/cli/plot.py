@@ -17,6 +17,7 @@ from yawdamp_ros.cli.options import (
 from yawdamp_ros.cli.peaks_table import print_events
 from yawdamp_ros.logs import is_recording
 from yawdamp_ros.runs import read_response_csv, read_response_recording
+from yawdamp_ros.runs.recorded_vehicle import recorded_vehicle
 from yawdamp_ros.stepping import Response, TimeGrid
 
 STEP_SIZE, SAMPLE_PERIOD = 0.001, 0.01
@@ -32,6 +33,7 @@ def main(argv: Sequence[str]) -> int:
         "run holds them. Several runs are compared in one picture.",
         "yawdamp plot runs/20261121-120000_interlink --output run.html\n"
         "  yawdamp plot interlink.csv interlink_rated_tyres.csv --output comparison.svg\n"
+        "  yawdamp plot runs/20261121-120000_interlink --swept --output swept.png\n"
         "  yawdamp plot --models consistent,nonlinear --manoeuvre lane_change --amplitude 0.05",
     )
     parser.add_argument(
@@ -51,6 +53,11 @@ def main(argv: Sequence[str]) -> int:
         metavar="NAME,NAME",
         help="in place of runs: one manoeuvre of one vehicle by several models, laid over each other",
     )
+    parser.add_argument(
+        "--swept",
+        action="store_true",
+        help="of one run: what its bodies sweep, to scale; a CSV file takes --vehicle besides",
+    )
     parser.add_argument("--duration", type=float, metavar="S", help="of that manoeuvre; default: 15")
     add_vehicle_options(parser, ())
     add_manoeuvre_options(parser)
@@ -60,10 +67,33 @@ def main(argv: Sequence[str]) -> int:
         message = f"--output: {options.output}: expected a name ending in {', '.join(KINDS)}"
         raise UsageError(message)
     require("plotly" if kind == ".html" else "matplotlib")
+    if options.swept:
+        _draw_swept(options)
+        print(options.output)
+        return 0
     runs = _by_models(options) if options.models else _recorded(options)
     _draw(runs, options.output, kind)
     print(options.output)
     return 0
+
+
+def _draw_swept(options: argparse.Namespace) -> None:
+    """Draw what the bodies of one run sweep."""
+    if len(options.runs) != 1 or options.models or Path(options.output).suffix.lower() == ".html":
+        message = "--swept: expected one RUN, and a picture as PNG or SVG"
+        raise UsageError(message)
+    from yawdamp_ros.pictures import save  # noqa: PLC0415 - as below
+    from yawdamp_ros.pictures.swept import swept_figure  # noqa: PLC0415
+
+    path = Path(options.runs[0])
+    if options.vehicle is not None:
+        vehicle = chosen_vehicle(options)
+    elif is_recording(path):
+        vehicle = recorded_vehicle(path)
+    else:
+        message = "--swept: a CSV file does not hold its vehicle: expected --vehicle"
+        raise UsageError(message)
+    save(swept_figure(path.stem, _read(path), vehicle), options.output)
 
 
 def _recorded(options: argparse.Namespace) -> list[tuple[str, Response]]:

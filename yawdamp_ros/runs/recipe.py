@@ -14,6 +14,7 @@ from yawdamp_ros.runs.encoder import TWISTS, Encoded, message_class
 from yawdamp_ros.runs.frames import TF_TYPE, Frames
 from yawdamp_ros.runs.jumps import INT64, JUMP
 from yawdamp_ros.runs.outputs import FLOAT64
+from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.runs.run_writer import Channel, RunWriter, SerialisedMessage
 from yawdamp_ros.runs.templates import ENCAPSULATION
 from yawdamp_ros.simulation import SimParameters
@@ -23,10 +24,6 @@ from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.vehicle import VehicleSource
 from yawdamp_ros.version import VERSION
 
-VEHICLE_FILE = "vehicle.yaml"
-"""Name of the attachment that holds the vehicle file."""
-METADATA_NAME = "yawdamp_ros"
-"""Name of the metadata record that explains a run."""
 FRAME_CHANNELS = {"tf": Channel("/tf", TF_TYPE), "tf_static": Channel("/tf_static", TF_TYPE, latched=True)}
 """Frames are of the whole graph: these names are not resolved."""
 COMMAND = "steering"

@@ -17,7 +17,7 @@ from yawdamp_ros.runs.csv_resimulation import TOLERANCE
 from yawdamp_ros.runs.deviations import Deviations, Difference, quantity
 from yawdamp_ros.runs.encoder import TWISTS, Encoded, Encoder, Jump, message_class
 from yawdamp_ros.runs.jumps import jump_of
-from yawdamp_ros.runs.recipe import METADATA_NAME, VEHICLE_FILE
+from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.simulation import Run, SimParameters, make_motion
 from yawdamp_ros.stepping import AppliedInput, Command, TimeGrid
 from yawdamp_ros.stepping.build import build_of_numerics
