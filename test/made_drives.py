@@ -20,21 +20,22 @@ def source_of(name: str) -> VehicleSource:
     return VehicleSource(vehicle_text(name), ())
 
 
-def made_drive(
+def made_drive(  # noqa: PLR0913 - each is one setting of a drive
     name: str,
     seed: int,
     duration: float = 120.0,
     *,
     truth: Mapping[str, float] = TRUTH,
     predictor: Callable[[Vehicle, Inputs], Mapping[str, np.ndarray]] = predict,
+    steering: float = 0.02,
 ) -> Drive:
-    """Drive of a vehicle other than its file says, steered at random below 0.4 Hz."""
+    """Drive of a vehicle other than its file says, steered at random below 0.4 Hz, in rad rms."""
     rng = np.random.default_rng(seed)
     subject = Subject(source_of(name), [each for each in truth if each != "steering_offset"])
     vehicle = subject.vehicle_with({each: truth[each] for each in truth if each != "steering_offset"})
     times = PERIOD * np.arange(round(duration / PERIOD) + 1)
     slow = lfilter(*butter(2, 0.8 * PERIOD), rng.normal(size=len(times) + 2000))[2000:]
-    angles = 0.02 * slow / slow.std()
+    angles = steering * slow / slow.std()
     speed = 17.0 + 3.0 * np.sin(2.0 * np.pi * times / 80.0)
     inputs = {
         "steering": Channel("steering", "made", times, angles),

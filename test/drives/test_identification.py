@@ -7,6 +7,7 @@ import pytest
 
 from made_drives import TRUTH, made_drive, source_of
 from yawdamp_ros.drives import Channel, Drive, DriveError, identify, inputs_of, predict
+from yawdamp_ros.drives.identification import predictor_of
 from yawdamp_ros.drives.noise_model import fitted
 from yawdamp_ros.vehicle import load_vehicle
 
@@ -75,6 +76,22 @@ def test_a_key_of_the_vehicle_and_the_steering_are_fitted_alike() -> None:
     assert found["steering_ratio"].value == pytest.approx(2.0, rel=0.02)
     assert found["units.1.mass"].low < 14000.0 < found["units.1.mass"].high
     assert found.overrides == [f"units.1.mass={found['units.1.mass'].value:.6g}"]
+
+
+def test_friction_is_seen_by_the_nonlinear_model_where_tyres_saturate() -> None:
+    predictor, truth = predictor_of("nonlinear"), {"friction": 0.4}
+    drive = made_drive("truck_trailer", 2, 30.0, truth=truth, predictor=predictor, steering=0.025)
+    found = identify(drive, source_of("truck_trailer"), ("friction",), predictor=predictor)
+    friction = found["friction"]
+    assert (friction.seen, friction.parameter.start) == (True, 0.8)
+    assert friction.value == pytest.approx(0.4, rel=0.05)
+    assert found.overrides == [f"friction={friction.value:.6g}"]
+
+
+def test_a_drive_on_which_the_model_rolls_over_is_refused() -> None:
+    drive, predictor = made_drive("truck_trailer", 2, 30.0, steering=0.1), predictor_of("nonlinear")
+    with pytest.raises(DriveError, match=r"made: the model's motion ends \d+\.\d s into the drive"):
+        identify(drive, source_of("truck_trailer"), predictor=predictor)
 
 
 def test_steering_that_was_recorded_late_is_told_from_the_vehicle() -> None:

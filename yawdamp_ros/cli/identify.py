@@ -136,6 +136,7 @@ def _parser() -> Parser:
         "  steering_offset              what the log shows when the wheels are straight, road wheel, rad\n"
         "  steering_ratio               factor of --steering-ratio\n"
         "  steering_time_constant       first-order lag of the steering, s\n"
+        "  friction                     of the road, by --model nonlinear\n"
         "  units.1.load.0.position ..   any number of the vehicle file, by its key\n"
         "Exit status: 0, 1 if one of them cannot be seen in the drive, 2 for wrong use.",
         "yawdamp identify drive.csv --vehicle truck_trailer --fit stiffness --fit inertia",

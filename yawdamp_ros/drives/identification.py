@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
 
+import numpy as np
+
 from yawdamp_ros.drives.channel import QUANTITIES, Channel, quantity_of
 from yawdamp_ros.drives.comparison import ChannelComparison, compare
 from yawdamp_ros.drives.drive import Drive
@@ -219,6 +221,13 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
         inputs = inputs_of(drive, own, delay=values.get("steering_delay", 0.0))
         return predictor(subject.vehicle_with(values), steered(inputs, values))
 
+    first = outputs({each.name: each.start for each in subject.parameters})
+    if (ended := np.isnan(np.column_stack([*first.values()])).any(axis=1)).any():
+        message = (
+            f"{drive.source}: the model's motion ends {times[np.argmax(ended)]:.1f} s into the drive, as "
+            "by a rollover; expected a drive, or a vehicle to start from, on which it does not"
+        )
+        raise DriveError(message)
     series = [
         Series(match.output, match.channel.times[kept], match.channel.values[kept])
         for match in chosen
@@ -236,7 +245,7 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
     }
     offsets = dict(zip([each.name for each in series], fit.coordinates[len(values) :], strict=True))
     compared = partial(_compared, chosen, offsets, times)
-    found, first = outputs(values), outputs({each.name: each.start for each in subject.parameters})
+    found = outputs(values)
     return Identification(
         estimates=_estimates(subject.parameters, series, fit),
         correlations=fit.correlations,

@@ -4,17 +4,20 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from yawdamp_ros.drives.errors import DriveError
 from yawdamp_ros.drives.prediction import Inputs
-from yawdamp_ros.vehicle import Unit, Vehicle, VehicleSource, parse_vehicle
+from yawdamp_ros.vehicle import Unit, Vehicle, VehicleError, VehicleSource, complete, parse_vehicle
 from yawdamp_ros.vehicle.load import value_at
 
 FACTORS = ("stiffness", "inertia")
 """Factors of every cornering stiffness, or every yaw inertia, of the vehicle; after a dot, of one unit."""
 STEERING = ("steering_ratio", "steering_offset", "steering_time_constant", "steering_delay")
+FRICTION = "friction"
+"""Key of the road's friction, which the nonlinear model alone knows."""
 DEFAULT = ("stiffness", "inertia", "steering_offset")
 _POSITIVE = re.compile(r".*\.(mass|yaw_inertia|cornering_stiffness|tyre_load)|friction|.*friction")
 
@@ -26,7 +29,7 @@ class Parameter:
     Attributes
     ----------
     name : str
-        A factor of `FACTORS`, one of `STEERING`, or a key of the vehicle file such as
+        A factor of `FACTORS`, one of `STEERING`, or a key of the vehicle file such as `FRICTION` or
         ``units.1.load.0.position``.
     unit : str
         Empty for factors and ratios.
@@ -114,11 +117,27 @@ class Subject:
             return Parameter(name, "", 1.0, 0.5, positive=True)
         if not _is_key(name):
             expected = ", ".join([*FACTORS, *(f"{each}.UNIT" for each in FACTORS), *STEERING])
-            message = f"{name}: expected one of {expected}, or a key of the vehicle as in units.1.mass"
+            message = (
+                f"{name}: expected one of {expected}, {FRICTION}, or a key of the vehicle as in units.1.mass"
+            )
             raise DriveError(message)
-        start = value_at(self._source, name)
+        start = self._value_at(name)
         positive = bool(_POSITIVE.fullmatch(name)) and start > 0.0
         return Parameter(name, "", start, 0.5 * abs(start) if positive else 1.0, positive=positive)
+
+    def _value_at(self, key: str) -> float:
+        """Number in the vehicle file, or the one that is assumed for it."""
+        try:
+            return value_at(self._source, key)
+        except VehicleError:
+            node: Any = complete(self.vehicle)
+            try:
+                for part in key.split("."):
+                    node = node[int(part)] if part.isdecimal() else getattr(node, part)
+                return float(node)
+            except (AttributeError, IndexError, TypeError, ValueError):
+                node = None
+            raise
 
 
 def steered(inputs: Inputs, values: Mapping[str, float]) -> Inputs:
@@ -151,4 +170,4 @@ def _scaled(unit: Unit, values: Mapping[str, float]) -> Unit:
 
 
 def _is_key(name: str) -> bool:
-    return name.startswith("units.")
+    return name == FRICTION or name.startswith("units.")
