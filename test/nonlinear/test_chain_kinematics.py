@@ -17,7 +17,7 @@ STEERING = 0.3
 
 
 def axle(position: float, stiffness: float = STIFF, *, steered: bool = False) -> Axle:
-    return Axle(position, stiffness, steered=steered, static_load=5e4, tyre="linear")
+    return Axle(position, stiffness, steered=steered, tyre="linear")
 
 
 def train(*units: Unit) -> NonlinearDynamics:

@@ -14,7 +14,10 @@ from yawdamp_ros.vehicle import (
     Vehicle,
     VehicleError,
     fancher_stiffness,
+    load_stack,
     load_vehicle,
+    unstacked,
+    vehicle_text,
 )
 from yawdamp_ros.vehicle.loads import added_axle_loads
 
@@ -180,3 +183,32 @@ def test_statics_needs_two_supports(tmp_path: Path) -> None:
     other.write_text(text, encoding="utf-8")
     with pytest.raises(VehicleError, match=r"units.2.axles: expected them behind the front hitch"):
         load_vehicle(other)
+
+
+def test_a_mass_that_is_changed_is_carried_by_statics() -> None:
+    before, after = (load_vehicle("interlink", changes) for changes in ([], ["units.2.mass=20000"]))
+    changes = [
+        [new.static_load - old.static_load for old, new in zip(unit.axles, heavier.axles, strict=True)]  # type: ignore[operator]
+        for unit, heavier in zip(before.units, after.units, strict=True)
+    ]
+    force = STANDARD_GRAVITY * (20000.0 - before.units[2].mass)
+    assert sum(map(sum, changes)) == pytest.approx(force, rel=1e-12)
+    last = before.units[2]
+    centre = np.mean([axle.position for axle in last.axles])
+    assert last.front_hitch is not None
+    share = last.front_hitch / (last.front_hitch - centre)
+    assert changes[2] == pytest.approx([0.5 * share * force] * 2, rel=1e-12)
+
+
+def test_static_loads_that_are_changed_hold_as_they_are() -> None:
+    changes = ["units.2.mass=20000", "units.2.axles.*.static_load=50000"]
+    loads = [axle.static_load for axle in load_vehicle("interlink", changes).units[2].axles]
+    assert loads == [50000.0, 50000.0]
+
+
+def test_a_stack_of_masses_carries_each_as_one_vehicle_does() -> None:
+    masses = np.array([15000.0, 29894.0, 40000.0])
+    stack = load_stack(vehicle_text("interlink"), "interlink", [], {"units.2.mass": masses})
+    for index, mass in enumerate(masses.tolist()):
+        alone = load_vehicle("interlink", [f"units.2.mass={mass!r}"])
+        assert unstacked(stack, index).units == alone.units

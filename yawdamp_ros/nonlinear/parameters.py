@@ -125,7 +125,7 @@ def parameters(vehicle: Vehicle, settings: Settings) -> Parameters:
 
 
 def _check_carried(vehicle: Vehicle, carried: float) -> None:
-    """Refuse given loads that leave weight in the air, as those of a file whose mass alone was changed."""
+    """Refuse given loads that leave weight in the air."""
     if any(axle.static_load is None for unit in vehicle.units for axle in unit.axles):
         return
     weight = STANDARD_GRAVITY * sum(unit.mass for unit in vehicle.units)
@@ -133,7 +133,7 @@ def _check_carried(vehicle: Vehicle, carried: float) -> None:
         tonnes, mass = (force / STANDARD_GRAVITY / 1000.0 for force in (carried, weight))
         message = (
             f"{vehicle.name}: the axles carry {tonnes:.4g} t at rest, the units' masses sum to {mass:.4g} t: "
-            "change each static_load with the mass, or add a load to the unit, which axles share by statics"
+            "expected the same; leave static_load out for what statics gives"
         )
         raise NonlinearError(message)
 

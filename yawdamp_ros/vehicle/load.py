@@ -3,6 +3,7 @@
 import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -224,11 +225,13 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     >>> parse_vehicle(vehicle_text("interlink"), "interlink").speed
     22.22222222222222
     """
-    data = canonical(overridden_data(text, source, overrides), source)
+    data = _parse_yaml(text, source)
+    before = deepcopy(data) if overrides else None
+    data = canonical(_overridden(data, overrides, source), source)
     if overrides or not _is_builtin(text, source):
         _check_schema(data, source)
     _check_combination(data, source)
-    return _build(data, source)
+    return _build(data, source, before)
 
 
 def value_at(vehicle: VehicleSource, key: str, source: str = "vehicle") -> float:
@@ -279,7 +282,9 @@ def load_stack(
     >>> stack.units[1].mass.tolist()
     [10000.0, 20000.0]
     """
-    data = overridden_data(text, source, overrides)
+    data = _parse_yaml(text, source)
+    before = deepcopy(data)
+    _overridden(data, overrides, source)
     # The schema holds each key to a range: a stack keeps to it if its extremes do.
     for extreme in (np.min, np.max):
         for key, column in values.items():
@@ -289,12 +294,15 @@ def load_stack(
         _set(data, key, column, source)
     data = canonical(data, source)
     _check_combination(data, source)
-    return _build(data, source)
+    return _build(data, source, before)
 
 
 def overridden_data(text: str, source: str, overrides: Sequence[str]) -> Any:  # noqa: ANN401
     """Parse the text of a vehicle file and change the keys that overrides name; nothing else is checked."""
-    data = _parse_yaml(text, source)
+    return _overridden(_parse_yaml(text, source), overrides, source)
+
+
+def _overridden(data: Any, overrides: Sequence[str], source: str) -> Any:  # noqa: ANN401
     for override in overrides:
         key, separator, value = override.partition("=")
         if not separator:
@@ -378,28 +386,31 @@ def _indices(entries: list[Any], part: str, key: str, source: str) -> list[int]:
     return [index]
 
 
-def _build(data: dict[str, Any], source: str) -> Vehicle:
+def _build(data: dict[str, Any], source: str, before: Any) -> Vehicle:  # noqa: ANN401
+    units = data["units"]
     return Vehicle(
         name=data["name"],
         speed=_number(data["speed"]),
         units=tuple(
-            _build_unit(unit, index, added, source)
-            for index, (unit, added) in enumerate(
-                zip(data["units"], _added_loads(data["units"], source), strict=True)
+            _build_unit(unit, index, added, changed, source)
+            for index, (unit, added, changed) in enumerate(
+                zip(units, _added_loads(units, source), _changed_loads(units, before, source), strict=True)
             )
         ),
         **_given(data, VEHICLE_KEYS),
     )
 
 
-def _build_unit(unit: dict[str, Any], index: int, added: Sequence[Any], source: str) -> Unit:
+def _build_unit(
+    unit: dict[str, Any], index: int, added: Sequence[Any], changed: Sequence[Any], source: str
+) -> Unit:
     mass, yaw_inertia, shift = loaded(unit)
 
     def from_cg(position: Any) -> Any:  # noqa: ANN401 - a number, or one for each vehicle of a stack
         return None if position is None else _number(position - shift)
 
     def build_axle(place: int, axle: dict[str, Any]) -> Axle:
-        load = static_load(axle, added[place])
+        load = static_load(axle, added[place] + changed[place])
         return Axle(
             from_cg(axle["position"]),
             _number(_stiffness(axle, added[place], f"units.{index}.axles.{place}", source)),
@@ -446,6 +457,34 @@ def _added_loads(units: Sequence[dict[str, Any]], source: str) -> list[list[Any]
         _check_supports(units, source)
         return added_axle_loads(units)
     return [[0.0] * len(unit["axles"]) for unit in units]
+
+
+def _changed_loads(units: Sequence[dict[str, Any]], before: Any, source: str) -> list[list[Any]]:  # noqa: ANN401
+    """Load that masses which were changed put on every axle, whose static load is of the mass before.
+
+    A change acts at the centre of gravity of its unit. Static loads that were changed, too, hold as they are.
+    """
+    none = [[0.0] * len(unit["axles"]) for unit in units]
+    if before is None or not all("static_load" in axle for unit in units for axle in unit["axles"]):
+        return none
+    try:
+        old = canonical(before, source)["units"]
+        loads = [[axle["static_load"] for axle in unit["axles"]] for unit in old]
+        masses = [unit["mass"] for unit in old]
+    except (VehicleError, KeyError, TypeError, AttributeError):
+        return none
+    if loads != [[axle["static_load"] for axle in unit["axles"]] for unit in units]:
+        return none
+    changes = [unit["mass"] - mass for unit, mass in zip(units, masses, strict=True)]
+    if not any(np.any(change) for change in changes):
+        return none
+    _check_supports(units, source)
+    return added_axle_loads(
+        [
+            unit | {"load": [{"mass": change, "position": 0.0}]}
+            for unit, change in zip(units, changes, strict=True)
+        ]
+    )
 
 
 def _stiffness(axle: dict[str, Any], added: Any, key: str, source: str) -> Any:  # noqa: ANN401

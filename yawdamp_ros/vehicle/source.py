@@ -38,7 +38,8 @@ def vehicle_source(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicl
     found = VehicleSource(vehicle_text(vehicle), tuple(overrides))
     if not any(".tir" in text for text in (found.text, *found.overrides)):
         return found
-    data = overridden_data(found.text, str(vehicle), overrides)
+    of_tyres = [text for text in found.overrides if text.endswith(".tir")]
+    data = overridden_data(found.text, str(vehicle), of_tyres)
     try:
         axles = [axle for unit in data["units"] for axle in unit["axles"]]
         for axle in axles:
@@ -51,7 +52,7 @@ def vehicle_source(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicl
     if len(text) > LARGEST_FILE:
         problem = f"{len(text)} characters with its .tir files: expected up to {LARGEST_FILE}"
         raise VehicleError(str(vehicle), "", problem)
-    return VehicleSource(text, ())
+    return VehicleSource(text, tuple(each for each in found.overrides if each not in of_tyres))
 
 
 def _tyre_text(path: Path) -> str:
