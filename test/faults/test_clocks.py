@@ -126,7 +126,7 @@ def test_jumps_back_of_the_system_clock_hold_nothing_up_and_silence_nothing(grap
 
     def refuse(count: int) -> None:
         publisher.publish(Float64(data=math.nan))
-        until(lambda: values(statuses("steering"))["speed_rejected_not_finite"] == str(count), "the refusal")
+        until(lambda: values(statuses("inputs")).get("speed_rejected_not_finite") == str(count), "a refusal")
 
     refuse(1)
     for hours in range(1, 11):

@@ -99,7 +99,7 @@ def test_the_manoeuvre_s_parameters_are_a_group() -> None:
         assert settings.manoeuvre == "sine"
         assert settings.manoeuvre_settings == {"amplitude": 0.02}
         assert node.get_parameter("manoeuvre.amplitude").value == 0.02
-        declare_derived(node, 22.5, clock=settings.clock)
+        declare_derived(node, {"speed": 22.5, "initial_speed": 22.5, "publish_clock": settings.clock})
         assert set(PARAMETERS) <= set(node.get_parameters_by_prefix(""))
 
 
@@ -149,7 +149,7 @@ def test_a_speed_that_is_not_given_is_absent_until_the_vehicle_s_own_is_known() 
     with node_given() as node:
         assert declare_parameters(node).speed is None
         assert not node.has_parameter("speed")
-        declare_derived(node, 22.5, clock=False)
+        declare_derived(node, {"speed": 22.5})
         assert node.get_parameter("speed").value == 22.5
         (described,) = node.describe_parameter("speed").floating_point_range
         assert described.to_value == 70.0
@@ -158,7 +158,7 @@ def test_a_speed_that_is_not_given_is_absent_until_the_vehicle_s_own_is_known() 
 @pytest.mark.graph
 @pytest.mark.parametrize("speed", ["0.0", "-3.0"])
 def test_a_speed_of_0_is_refused_and_is_not_the_vehicle_s_own(speed: str) -> None:
-    said = "no model can stand still"
+    said = "model consistent cannot stand or reverse; expected at least 0.01 m/s"
     with node_given("-p", f"speed:={speed}") as node, pytest.raises(NodeError, match=said):
         declare_parameters(node)
 

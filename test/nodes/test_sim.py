@@ -262,7 +262,7 @@ def test_what_is_not_wanted_is_neither_published_nor_recorded(graph: Graph) -> N
         (["--ros-args", "-p", "publsh_rate:=50.0"], "no such parameter; did you mean publish_rate?"),
         (["--ros-args", "-p", "model:=exact"], "parameter model: 'exact': expected one of consistent"),
         (["--ros-args", "-p", "noise_seed:=-1"], "parameter noise_seed: -1: expected a number from 0"),
-        (["--ros-args", "-p", "speed:=1e-300"], "speed: 1e-300: expected a number from 0.01 to 70"),
+        (["--ros-args", "-p", "speed:=1e-300"], "speed: 1e-300: model consistent cannot stand or reverse"),
         (["--no-record", "--output", "run"], "--output: there is no recording with --no-record"),
         (["--ros-args", "-p", "step_size:=0.003"], "step_size: 0.003 s: expected a whole number of steps"),
         (

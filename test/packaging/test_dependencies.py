@@ -16,9 +16,11 @@ KEYS = {element.text for element in PACKAGE if element.tag in {"depend", "exec_d
 
 MODULES = {"ruamel": "python3-ruamel.yaml", "rosbags": "python3-rosbags-pip"}
 """Keys that are not python3-<module>, by module."""
-BROUGHT_ALONG = {"mcap", "mcap_ros2", "zstandard", "setuptools", "packaging"}
-"""By mcap-ros2-support, and by pytest and colcon."""
-OWN = {"yawdamp_ros", "faults", "parameter_table"} | {path.stem for path in (ROOT / "test").glob("*.py")}
+BROUGHT_ALONG = {"mcap", "mcap_ros2", "zstandard", "setuptools", "packaging", "PIL"}
+"""By mcap-ros2-support, by pytest and colcon, and by matplotlib."""
+OWN = {"yawdamp_ros", "faults", "vehicle", "parameter_table"} | {
+    path.stem for path in (ROOT / "test").glob("*.py")
+}
 NOT_COLLECTED = {"fuzz.py"}
 
 
