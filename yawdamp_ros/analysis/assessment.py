@@ -26,7 +26,7 @@ ROLLOVER = ("static_rollover_threshold", "rear_static_rollover_threshold")
 
 @dataclass(frozen=True)
 class Finding:
-    """What came out for one measure.
+    """Result for one measure.
 
     Attributes
     ----------
@@ -66,7 +66,13 @@ class Finding:
 
 
 class Verdict(Enum):
-    """Of a whole combination."""
+    """Verdict on a whole combination.
+
+    Examples
+    --------
+    >>> Verdict("fail") is Verdict.FAIL
+    True
+    """
 
     PASS = "pass"  # noqa: S105 - no password
     FAIL = "fail"
@@ -75,7 +81,7 @@ class Verdict(Enum):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What an assessment comes to.
+    """Result of an assessment.
 
     Attributes
     ----------
@@ -107,6 +113,13 @@ class Assessment:
     level : str or None
         That was asked for.
     findings : tuple of Finding
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> vehicle, rtac = load_vehicle("a_double"), load_scheme("rtac")
+    >>> Assessment(vehicle, "consistent", rtac, None, assess(vehicle, scheme=rtac)).sentence
+    'FAILS rtac; decided by load_transfer_ratio, high_speed_transient_offtracking'
     """
 
     vehicle: Vehicle
@@ -117,7 +130,7 @@ class Assessment:
 
     @property
     def outcome(self) -> Outcome:
-        """What it comes to."""
+        """Result of the whole."""
         return outcome(self.findings, self.scheme)
 
     @property
@@ -255,13 +268,27 @@ def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Fin
     -------
     tuple of (Finding, Finding)
         By `consistent` and by the nonlinear model, each at the manoeuvre of its standard.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> linear, nonlinear = differences(load_vehicle("single_vehicle"))[0]
+    >>> linear.measure.name
+    'least_damping_ratio'
     """
     pairs = zip(assess(vehicle, speed=speed), assess(vehicle, NONLINEAR, speed), strict=True)
     return tuple(pair for pair in pairs if pair[0].measure.name in NONLINEAR_MEASURES)
 
 
 def failed(findings: Iterable[Finding]) -> bool:
-    """Whether any limit is failed, or met in one reading of an ambiguous measure only."""
+    """Tell if any limit is failed, or met in one reading of an ambiguous measure only.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> failed(assess(load_vehicle("a_double")))
+    True
+    """
     return any(finding.passed is False or bool(finding.ambiguity) for finding in findings)
 
 

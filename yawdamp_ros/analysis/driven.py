@@ -134,6 +134,12 @@ def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
     ------
     AnalysisError
         If no steering leads the linear model through the lane change.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> 0.0 < load_transfer_ratio(load_vehicle("single_vehicle"), 24.0) < 0.3
+    True
     """
     planned = run_lane_change(linear_model(vehicle, speed))
     dynamics = NonlinearDynamics(vehicle)
@@ -179,6 +185,12 @@ def tracking_ability_on_a_straight_path(vehicle: Vehicle, speed: float) -> float
     ------
     AnalysisError
         If there is no steady motion at that speed.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> tracking_ability_on_a_straight_path(load_vehicle("interlink"), 25.0) > 2.55  # its width
+    True
     """
     dynamics = NonlinearDynamics(vehicle)
     try:
@@ -211,6 +223,12 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
     ------
     AnalysisError
         If the vehicle rolls over or folds up.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> directional_stability_under_braking(load_vehicle("interlink"), 60.0 / 3.6) < 3.0
+    True
     """
     dynamics = NonlinearDynamics(vehicle)
     place = steer_axle_position(vehicle)

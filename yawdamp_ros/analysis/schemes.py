@@ -20,7 +20,7 @@ LARGEST_FILE, MOST_VALUES = 1 << 16, 2000
 
 @dataclass(frozen=True)
 class Requirement:
-    """What a scheme asks of a measure.
+    """Requirement of a scheme on a measure.
 
     Attributes
     ----------
@@ -35,6 +35,11 @@ class Requirement:
         As tables show it.
     note : str
         What the file says besides.
+
+    Examples
+    --------
+    >>> Requirement("tail_swing", "most", (0.3, 0.35)).met(0.32, 1, {})
+    True
     """
 
     measure: str
@@ -65,7 +70,7 @@ class Requirement:
         return None if factor is None else limit * factor
 
     def met(self, value: float, level: int, values: Mapping[str, float | None]) -> bool | None:
-        """Whether a value meets a level; None where its limit is not known."""
+        """Compare a value with a level; None where its limit is not known."""
         limit = self.limit(level, values)
         if limit is None:
             return None
@@ -161,6 +166,13 @@ def load_scheme(scheme: str | Path, only: str | None = None) -> Scheme:
     AnalysisError
         If there is no such scheme, or its file is not valid; the message names file, key and what was
         expected.
+
+    Examples
+    --------
+    >>> load_scheme("rtac").measures[0]
+    'static_rollover_threshold'
+    >>> load_scheme("pbs", "tail_swing").measures
+    ('tail_swing',)
     """
     source = str(scheme) or "''"
     known = builtin_schemes()

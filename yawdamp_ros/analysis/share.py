@@ -21,6 +21,14 @@ class SchemeStudy:
     ----------
     studies : tuple of Study
         Of one vehicle and its varied keys, by the measures of the scheme.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import vehicle_text
+    >>> keys = (("units.2.mass",),)
+    >>> study = Study(vehicle_text("interlink"), "interlink", (), "consistent", keys, "tail_swing")
+    >>> SchemeStudy((study,)).evaluate(np.array([[2e4], [3e4]])).shape
+    (2, 1)
     """
 
     studies: tuple[Study, ...]
@@ -37,7 +45,7 @@ class SchemeStudy:
 
     @property
     def threads(self) -> bool:
-        """Whether the work runs without Python's lock."""
+        """False: the work holds Python's lock."""
         return False
 
     def check(self, points: Points) -> None:
@@ -51,7 +59,7 @@ class SchemeStudy:
 
 @dataclass(frozen=True)
 class Share:
-    """How many of k vehicles meet a level.
+    """Shares of k vehicles that meet a level.
 
     Attributes
     ----------
@@ -136,14 +144,14 @@ def share_of(
 
 
 def _is_bound(name: str) -> bool:
-    """Whether a measure's value is a lower bound only."""
+    """Tell if a measure's value is a lower bound only."""
     return name in VEHICLE_MEASURES and bool(VEHICLE_MEASURES[name].caveat)
 
 
 def _failed(
     requirements: tuple[Requirement, ...], values: Mapping[str, FloatArray], level: int
 ) -> "np.ndarray[tuple[int, ...], np.dtype[np.bool_]]":
-    """Whether each vehicle fails a measure; what is not known is not failed."""
+    """Tell which vehicles fail a measure; what is not known is not failed."""
     count = len(next(iter(values.values())))
     wrong = np.zeros(count, dtype=bool)
     for each in requirements:

@@ -206,7 +206,7 @@ def _eigenvalues(model: LinearModel) -> ComplexArray:
 
 
 class Evaluated(Protocol):
-    """What `evaluate_all` asks: a study of one measure or of several."""
+    """Study of one measure or of several, as far as `evaluate_all` asks."""
 
     @property
     def chunk(self) -> int:

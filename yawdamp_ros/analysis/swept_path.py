@@ -1,4 +1,4 @@
-"""What a turning vehicle sweeps: width of its path, and what swings out of it.
+"""Swept width of a turning vehicle, and the swings of its corners.
 
 Everything is measured across the path of the guided tyre (`low_speed_turn`): inwards is positive. A side of a
 body is furthest in abreast of its unsteered axles, for there it moves along itself; furthest out are corners.
@@ -48,7 +48,7 @@ def low_speed_swept_path(vehicle: Vehicle) -> float:
 
 
 def frontal_swing(vehicle: Vehicle) -> float:
-    """How far the lead unit's front corner swings out of the path of the outer front tyre [m].
+    """Largest swing of the lead unit's front corner out of the path of the outer front tyre [m].
 
     Parameters
     ----------
@@ -58,12 +58,18 @@ def frontal_swing(vehicle: Vehicle) -> float:
     Returns
     -------
     float
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> 0.0 < frontal_swing(load_vehicle("interlink")) < 1.0
+    True
     """
     return float(_front_swing(low_speed_turn(vehicle), 0).max())
 
 
 def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
-    """By how much a trailer's front corner swings out further than that of the unit ahead, at one place [m].
+    """Largest excess of a trailer's frontal swing over that of the unit ahead, at one place [m].
 
     What does not swing out of the path of the outer front tyre counts as 0.
 
@@ -76,6 +82,12 @@ def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
     -------
     float or None
         None where no trailer has a body; the largest of several.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> frontal_swing_maximum_of_differences(load_vehicle("single_vehicle")) is None
+    True
     """
     turn = low_speed_turn(vehicle)
     pairs = _pairs(turn)
@@ -83,7 +95,7 @@ def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
 
 
 def frontal_swing_difference_of_maxima(vehicle: Vehicle) -> float | None:
-    """By how much a trailer's front corner at its furthest is further out than that of the unit ahead [m].
+    """Largest frontal swing of a trailer less that of the unit ahead [m].
 
     Parameters
     ----------
@@ -94,6 +106,12 @@ def frontal_swing_difference_of_maxima(vehicle: Vehicle) -> float | None:
     -------
     float or None
         None where no trailer has a body; the largest of several.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> frontal_swing_difference_of_maxima(load_vehicle("interlink")) < 0.0  # the truck swings further
+    True
     """
     turn = low_speed_turn(vehicle)
     pairs = _pairs(turn)
@@ -103,7 +121,7 @@ def frontal_swing_difference_of_maxima(vehicle: Vehicle) -> float | None:
 
 
 def tail_swing(vehicle: Vehicle) -> float:
-    """How far a rear corner swings out of the straight way that it came, as the turn begins [m].
+    """Largest swing of a rear corner out of the straight way that it came, as the turn begins [m].
 
     Parameters
     ----------
@@ -114,6 +132,13 @@ def tail_swing(vehicle: Vehicle) -> float:
     -------
     float
         The largest of the units that have a body.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> longer = load_vehicle("interlink", ["units.trailer_2.rear_overhang=4"])
+    >>> tail_swing(longer) > tail_swing(load_vehicle("interlink"))
+    True
     """
     turn = low_speed_turn(vehicle)
     found = [0.0]
@@ -135,6 +160,13 @@ def envelope(turn: Turn) -> tuple[FloatArray, FloatArray]:
     -------
     inner, outer : ndarray, shape (STATIONS,)
         Inwards positive, at even stations along the guided path [m].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> inner, outer = envelope(low_speed_turn(load_vehicle("interlink")))
+    >>> bool(inner.max() > 6.0 > 0.0 >= outer.max())
+    True
     """
     stations = _stations(turn)
     inner = np.full(STATIONS, -np.inf)
@@ -159,7 +191,7 @@ def _pairs(turn: Turn) -> list[tuple[int, int]]:
 
 
 def _front_swing(turn: Turn, unit: int) -> FloatArray:
-    """How far out a unit's front corner is at every station, 0 within the guided path [m]."""
+    """Swing of a unit's front corner at every station, 0 within the guided path [m]."""
     own = turn.geometry[unit]
     return np.maximum(-_across(turn, unit, own.front, -own.half_width, _stations(turn)), 0.0)
 
@@ -185,6 +217,13 @@ def along_guide(turn: Turn, x: FloatArray, y: FloatArray) -> tuple[FloatArray, F
     -------
     way, inwards : ndarray, shape (m,)
         In m.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> turn = low_speed_turn(load_vehicle("interlink"))
+    >>> [float(value[0]) for value in along_guide(turn, np.array([-2.0]), np.array([0.5]))]
+    [-2.0, 0.5]
     """
     if not math.isclose(turn.angle, RIGHT_ANGLE):
         message = f"turn of {math.degrees(turn.angle):g} degrees: swept paths are measured in one of 90"
@@ -215,6 +254,13 @@ def on_guide(turn: Turn, way: FloatArray, inwards: FloatArray) -> tuple[FloatArr
     -------
     x, y : ndarray, shape (m,)
         In m.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> turn = low_speed_turn(load_vehicle("interlink"))
+    >>> [float(value[0]) for value in on_guide(turn, np.array([-2.0]), np.array([0.5]))]
+    [-2.0, 0.5]
     """
     turned = np.clip(way / turn.radius, 0.0, turn.angle)
     heading = np.exp(1j * turned)

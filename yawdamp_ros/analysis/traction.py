@@ -1,4 +1,4 @@
-"""What the powertrain can do: start and climb on a grade, keep a speed, gain speed.
+"""Limits of the powertrain: start and climb on a grade, keep a speed, gain speed.
 
 Forces act at the driven wheels. Friction limits them by the static load of the driven axles; gears change in
 no time and rotating masses count for nothing, so that speeds and times are the best that it can do.
@@ -45,7 +45,7 @@ def startability(vehicle: Vehicle) -> float:
     --------
     >>> from yawdamp_ros.vehicle import load_vehicle
     >>> round(startability(load_vehicle("interlink", ["start_force=1e5"])), 1)
-    15.0
+    17.9
     """
     return _steepest(vehicle, _given(vehicle, "start_force", "startability"))
 
@@ -61,6 +61,12 @@ def gradeability(vehicle: Vehicle) -> float:
     Returns
     -------
     float
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> round(gradeability(load_vehicle("interlink", ["drive_force_kN=100"])), 1)
+    17.9
     """
     return _steepest(vehicle, _given(vehicle, "drive_force", "gradeability"))
 
@@ -77,6 +83,13 @@ def gradeability_speed(vehicle: Vehicle) -> float:
     -------
     float
         0 where it does not move.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> strong = load_vehicle("interlink", ["drive_force_kN=100", "drive_power_kW=300"])
+    >>> 80.0 < gradeability_speed(strong) < 120.0
+    True
     """
     thrust = _Thrust(vehicle, "gradeability_speed")
 
@@ -106,6 +119,13 @@ def acceleration_capability(vehicle: Vehicle) -> float:
     ------
     AnalysisError
         If the vehicle file lacks a number, or the vehicle does not move.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> strong = load_vehicle("interlink", ["drive_force_kN=100", "drive_power_kW=300"])
+    >>> 10.0 < acceleration_capability(strong) < 20.0
+    True
     """
     thrust = _Thrust(vehicle, "acceleration_capability")
 

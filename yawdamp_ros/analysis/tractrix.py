@@ -79,6 +79,14 @@ class Turn(NamedTuple):
         Of the middles of the unsteered axles, x + i y [m].
     steering : ndarray, shape (m,)
         Road-wheel angle of the steered axle in its middle [rad].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> turn = low_speed_turn(load_vehicle("interlink"))
+    >>> x, y = turn.path(2, 0.0, 0.0)  # of the middle of the last unit's axles
+    >>> bool(x[-1] > 10.0)
+    True
     """
 
     geometry: tuple[UnitGeometry, ...]

@@ -40,6 +40,12 @@ def vehicle_tables(vehicle: Vehicle) -> list[dict[str, object]]:
     -------
     list of dict
         With title, columns and rows of text.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> [table["title"] for table in vehicle_tables(load_vehicle("interlink"))]
+    ['Units', 'Axles']
     """
     full, marks = complete(vehicle), {each.key for each in assumed(vehicle)}
     loads = static_loads(vehicle)
@@ -107,6 +113,12 @@ def side_view(vehicle: Vehicle) -> dict[str, object]:
     -------
     dict
         Lengths in m, from the lead unit's centre of gravity, forward positive.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> len(side_view(load_vehicle("interlink"))["units"])
+    3
     """
     full, marks = complete(vehicle), {each.key for each in assumed(vehicle)}
     places = [0.0]
@@ -146,6 +158,12 @@ def turn_view(vehicle: Vehicle) -> dict[str, object] | None:
     -------
     dict or None
         Points in m.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> turn_view(load_vehicle("interlink"))["width"]
+    '7.99 m'
     """
     try:
         turn = low_speed_turn(vehicle)

@@ -55,6 +55,11 @@ class Heading(NamedTuple):
     ----------
     project, author, date : str
         Empty where nothing is to be said.
+
+    Examples
+    --------
+    >>> Heading(project="Bulk haul").author
+    ''
     """
 
     project: str = ""

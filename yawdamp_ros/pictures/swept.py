@@ -1,4 +1,4 @@
-"""What the bodies of a run sweep, to scale."""
+"""Swept surface of the bodies of a run, to scale."""
 
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -39,6 +39,15 @@ def swept_figure(name: str, response: Response, vehicle: Vehicle) -> Figure:
     ------
     PictureError
         If the run holds no paths, or is of other units.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> from yawdamp_ros.simulation import simulate
+    >>> vehicle = load_vehicle("interlink")
+    >>> run = simulate(vehicle, lambda _: 0.01, 3.0, sample_period=0.02)
+    >>> swept_figure("run", run, vehicle).axes[0].get_title()
+    'run: swept by interlink'
     """
     if response.unit_names != vehicle.unit_names:
         message = f"{name}: units {', '.join(response.unit_names)}: {vehicle.name} has others"

@@ -1,4 +1,4 @@
-"""What a vehicle file may say in other ways: units in keys, positions from an axle, stiffness by load.
+"""Other spellings of a vehicle file: units in keys, positions from an axle, stiffness by load.
 
 A file is brought to its canonical keys (`vehicle.schema.json`) before it is checked.
 
@@ -127,6 +127,13 @@ def replaced(node: dict[str, Any], key: str) -> None:
     node : dict
         Changed in place.
     key : str
+
+    Examples
+    --------
+    >>> axle = {"position": 1.0, "cornering_stiffness": 4e5}
+    >>> replaced(axle, "cornering_coefficient")
+    >>> axle
+    {'position': 1.0}
     """
     base = SPELLINGS.get(key, (key, 1.0))[0]
     bases = STIFFNESSES if base in STIFFNESSES else (base,)
