@@ -18,9 +18,7 @@ MODULES = {"ruamel": "python3-ruamel.yaml", "rosbags": "python3-rosbags-pip"}
 """Keys that are not python3-<module>, by module."""
 BROUGHT_ALONG = {"mcap", "mcap_ros2", "zstandard", "setuptools", "packaging", "PIL"}
 """By mcap-ros2-support, by pytest and colcon, and by matplotlib."""
-OWN = {"yawdamp_ros", "faults", "vehicle", "parameter_table"} | {
-    path.stem for path in (ROOT / "test").glob("*.py")
-}
+OWN = {"yawdamp_ros"} | {path.stem for folder in ("test", "docs") for path in (ROOT / folder).iterdir()}
 NOT_COLLECTED = {"fuzz.py"}
 
 
