@@ -6,7 +6,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 LOCK := requirements.lock
-NOBLE_EXTRAS := analysis bags cluster colcon fast pandas parquet pictures ros test
+NOBLE_EXTRAS := analysis bags cluster colcon fast gymnasium pandas parquet pictures ros test
 # Ubuntu 24.04's Python where one runs (a shim of pyenv may not), else the Python there is.
 NOBLE_PYTHON = $(shell for python in python3.12 $(HOME)/.pyenv/versions/3.12*/bin/python3.12 $(PYTHON); do \
   "$$python" -c "" 2>/dev/null && echo "$$python" && break; done)

@@ -58,6 +58,7 @@ setup(
         "cluster": ["distributed>=2026.8.0"],  # sweeps on other machines
         "tables": ["openpyxl>=3.1.2"],  # assessments as spreadsheets
         "parquet": ["pyarrow>=26.0.1"],  # sweeps as columns that other tools read fast
+        "gymnasium": ["gymnasium>=1.4.0"],  # rigs as environments to learn in
         "pandas": ["pandas>=2.1.4"],  # runs as tables
         "ros": ["ros-jazzy-rclpy[fastrtps]", "ros-jazzy-common-interfaces"],
         # pytest 9 breaks the plugin of the launch_testing that a sourced Jazzy brings.

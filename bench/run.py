@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.table import Table
 
 import cluster
+import control_steps
 import fleet
 import measures
 import nodes
@@ -118,6 +119,7 @@ def of_memory(directory: Path) -> list[Row]:
 
 PARTS = {
     "in_process": in_process,
+    "control_steps": control_steps.of_plants,
     "measures": measures.of_stacks,
     "fleet": fleet.of_fleets,
     "starts": starts.of_commands,

@@ -28,6 +28,7 @@ class HeldInput:
     ----------
     value : float or None
         In force.
+    low, high : float
     counts : dict of Verdict to int
         Values offered so far, by verdict.
 
@@ -45,7 +46,8 @@ class HeldInput:
         self.counts = dict.fromkeys(
             (Verdict.ACCEPTED, Verdict.CLAMPED, Verdict.NOT_FINITE, Verdict.BACKWARDS, Verdict.NOT_SOURCE), 0
         )
-        self._low, self._high, self._backwards = low, high, backwards
+        self.low, self.high = low, high
+        self._backwards = backwards
         self._received_at: int | None = None
 
     def offer(self, value: float, step: int) -> Verdict:
@@ -63,7 +65,7 @@ class HeldInput:
         verdict = self._judge(value)
         self.counts[verdict] += 1
         if verdict in {Verdict.ACCEPTED, Verdict.CLAMPED}:
-            self.value, self._received_at = min(max(value, self._low), self._high), step
+            self.value, self._received_at = min(max(value, self.low), self.high), step
         return verdict
 
     def reject(self, verdict: Verdict) -> Verdict:
@@ -80,4 +82,4 @@ class HeldInput:
             return Verdict.NOT_FINITE
         if value < 0.0 and not self._backwards:
             return Verdict.BACKWARDS
-        return Verdict.ACCEPTED if self._low <= value <= self._high else Verdict.CLAMPED
+        return Verdict.ACCEPTED if self.low <= value <= self.high else Verdict.CLAMPED
