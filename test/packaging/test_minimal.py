@@ -96,7 +96,8 @@ def yawdamp(minimal: Path, *arguments: str, cwd: Path) -> subprocess.CompletedPr
 def test_the_optional_libraries_are_not_there(minimal: Path) -> None:
     code = (
         "from importlib.util import find_spec; "
-        "print([m for m in ('matplotlib', 'plotly', 'control', 'distributed', 'pytest') if find_spec(m)])"
+        "names = 'matplotlib', 'plotly', 'openpyxl', 'control', 'distributed', 'pytest'; "
+        "print([m for m in names if find_spec(m)])"
     )
     found = subprocess.run(
         [minimal / "bin" / "python", "-c", code],
@@ -133,6 +134,7 @@ def test_what_draws_nothing_works(minimal: Path, command: str, tmp_path: Path) -
 
 
 PICTURES = "sudo apt install python3-{0}, or pip install 'yawdamp_ros[pictures]'"
+TABLES = "sudo apt install python3-{0}, or pip install 'yawdamp_ros[tables]'"
 CLUSTER = "sudo apt install python3-{0}, or pip install 'yawdamp_ros[cluster]'"
 
 
@@ -144,6 +146,7 @@ CLUSTER = "sudo apt install python3-{0}, or pip install 'yawdamp_ros[cluster]'"
         ("stability --vary speed=10:30:3 --plot a.png", "matplotlib", PICTURES),
         ("stability --bode a.png", "matplotlib", PICTURES),
         ("sweep --vary speed=10:30:3 --plot a.png", "matplotlib", PICTURES),
+        ("assess --xlsx a.xlsx", "openpyxl", TABLES),
         ("sweep --vary speed=10:30:3 --scheduler tcp://127.0.0.1:1", "distributed", CLUSTER),
     ],
 )
