@@ -72,7 +72,7 @@ def drive_page(
     data = {
         "title": title,
         "subtitle": subtitle,
-        "tables": [table._asdict() for table in tables],
+        "tables": [_shown(table) for table in tables],
         "notes": list(notes),
         "sections": [
             {"title": name, "text": "", "charts": [chart for each in found for chart in _charts(each)]}
@@ -84,16 +84,25 @@ def drive_page(
     return page_text("drive.html", title, data)
 
 
+def _shown(table: PageTable) -> dict[str, object]:
+    return {**table._asdict(), "rows": [[_squared(cell) for cell in row] for row in table.rows]}
+
+
+def _squared(text: str) -> str:
+    return text.replace("^2", "²")
+
+
 def _charts(found: ChannelComparison) -> list[dict[str, object]]:
     every = -(-len(found.times) // MOST_POINTS)
     times = _rounded(found.times[::every])
+    unit = _squared(found.unit)
     thinned = f" One sample in {every} is drawn." if every > 1 else ""
     charts: list[dict[str, object]] = [
         {
             "wide": True,
             "title": found.output.replace("_", " "),
             "x_label": "time, s",
-            "y_label": found.unit,
+            "y_label": unit,
             "series": [
                 {"name": name, "xs": times, "ys": _rounded(values[::every]), "colour": colour}
                 for colour, (name, values) in enumerate(
@@ -101,12 +110,12 @@ def _charts(found: ChannelComparison) -> list[dict[str, object]]:
                 )
             ],
             "caption": f"R2 {found.r_squared:.3f}, at most {found.attainable:.3f} with its noise of "
-            f"{found.noise:.3g} {found.unit}.{thinned}",
+            f"{found.noise:.3g} {unit}.{thinned}",
         },
         {
             "title": f"{found.output.replace('_', ' ')}: measured less simulated",
             "x_label": "time, s",
-            "y_label": found.unit,
+            "y_label": unit,
             "series": [
                 {
                     "name": "error",
@@ -115,7 +124,7 @@ def _charts(found: ChannelComparison) -> list[dict[str, object]]:
                     "colour": 6,
                 }
             ],
-            "caption": f"RMS {found.rms_error:.3g} {found.unit}, mean {found.bias:.3g} {found.unit}",
+            "caption": f"RMS {found.rms_error:.3g} {unit}, mean {found.bias:.3g} {unit}",
         },
     ]
     shown = found.frequencies <= HIGHEST_FREQUENCY
