@@ -161,3 +161,22 @@ def test_wrong_use_is_one_line_and_status_2(
 def test_a_run_directory_is_never_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["simulate", "--manoeuvre", "step", "--output", str(tmp_path)]) == 2
     assert "cannot be recorded to: File exists" in capsys.readouterr().err
+
+
+def test_an_acceleration_in_a_log_is_followed_as_the_speed_that_it_makes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    written = []
+    for name, values, options in (
+        ("acceleration", (0.5, -1.0, 0.0), ["--speed", "15"]),
+        ("speed", (15.0, 16.0, 14.0), []),
+    ):
+        log, output = tmp_path / f"{name}.csv", tmp_path / f"{name}_run.csv"
+        rows = [f"{2 * index},0.01,{value}" for index, value in enumerate(values)]
+        log.write_text("\n".join([f"time,steering_angle,{name}", *rows]) + "\n")
+        assert run(["simulate", "--log", str(log), *options, "--output", str(output)]) == 0
+        written.append(np.genfromtxt(output, delimiter=",", skip_header=1))
+    captured = capsys.readouterr()
+    assert "following the log's acceleration, from 15 m/s on\n" in captured.out
+    assert captured.err == ""
+    np.testing.assert_allclose(written[0], written[1], rtol=1e-9, atol=1e-12)

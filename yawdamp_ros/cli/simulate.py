@@ -30,7 +30,7 @@ from yawdamp_ros.cli.options import (
 )
 from yawdamp_ros.cli.peaks_table import peaks_record, print_events, print_peaks
 from yawdamp_ros.cli.ros import require_ros
-from yawdamp_ros.drives import is_input
+from yawdamp_ros.drives import is_input, speeds_by_acceleration
 from yawdamp_ros.errors import one_line
 from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.logs.room import check_room
@@ -108,13 +108,17 @@ def _played(
         return None, {}
     source = options.longitudinal_source or "speed"
     inputs = dict(log.inputs)
+    if "acceleration" in inputs and "speed" not in inputs and "acceleration" not in motion.input_names:
+        times, values = inputs.pop("acceleration")
+        inputs["speed"] = times, speeds_by_acceleration(times, values, motion.speed).tolist()
+        print(f"following the log's acceleration, from {motion.speed:g} m/s on")
+    elif "speed" in inputs and source == "speed" and options.speed is None:
+        print(f"following the log: {speed_line(log)}")
     left = [name for name in LONGITUDINAL if name in inputs and name != source]
     left += [name for name in inputs if name not in {*LONGITUDINAL, *motion.input_names}]
-    if "speed" in inputs and source == "speed" and options.speed is not None:
+    if log.speeds and source == "speed" and options.speed is not None:
         print(f"--speed counts; the log's own is not followed: {speed_line(log)}")
         del inputs["speed"]
-    elif "speed" in inputs and source == "speed":
-        print(f"following the log: {speed_line(log)}")
     if left:
         print(one_line(f"note: {log.source}: not followed: {', '.join(left)}"), file=sys.stderr)
     return (log.times, log.angles), {name: each for name, each in inputs.items() if name not in left}

@@ -10,7 +10,7 @@ from yawdamp_ros.lazy import load_on_use
 if TYPE_CHECKING:
     from yawdamp_ros.drives.channel import QUANTITIES, UNITS, Channel, quantity_of
     from yawdamp_ros.drives.comparison import ChannelComparison, Excitation, compare, excitation
-    from yawdamp_ros.drives.drive import INPUTS, Drive, is_input
+    from yawdamp_ros.drives.drive import INPUTS, Drive, is_input, speeds_by_acceleration
     from yawdamp_ros.drives.errors import DriveError
     from yawdamp_ros.drives.identification import Estimate, Identification, identify
     from yawdamp_ros.drives.matching import Match, matches
@@ -40,6 +40,7 @@ __all__ = [
     "matches",
     "predict",
     "quantity_of",
+    "speeds_by_acceleration",
 ]
 
 __getattr__ = load_on_use(
@@ -47,7 +48,7 @@ __getattr__ = load_on_use(
     {
         "yawdamp_ros.drives.channel": ("QUANTITIES", "UNITS", "Channel", "quantity_of"),
         "yawdamp_ros.drives.comparison": ("ChannelComparison", "Excitation", "compare", "excitation"),
-        "yawdamp_ros.drives.drive": ("INPUTS", "Drive", "is_input"),
+        "yawdamp_ros.drives.drive": ("INPUTS", "Drive", "is_input", "speeds_by_acceleration"),
         "yawdamp_ros.drives.errors": ("DriveError",),
         "yawdamp_ros.drives.identification": ("Estimate", "Identification", "identify"),
         "yawdamp_ros.drives.matching": ("Match", "matches"),

@@ -1,12 +1,14 @@
 """A recorded drive: what steered a vehicle, how fast it went, and what was measured on it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yawdamp_ros.drives.channel import Channel
 from yawdamp_ros.drives.errors import DriveError
+from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.stepping.held_input import HIGHEST_SPEED, LOWEST_FOLLOWED
 
 INPUTS = ("steering", "speed", "acceleration", "gear", "friction")
 
@@ -99,8 +101,8 @@ class Drive:
         if "speed" in self or "acceleration" not in self:
             return self.channels.get("speed")
         given = self["acceleration"]
-        gained = np.concatenate([[0.0], np.cumsum(np.diff(given.times) * given.values[:-1])])
-        return Channel("speed", f"integral of {given.source}", given.times, start + gained)
+        speeds = speeds_by_acceleration(given.times, given.values, start)
+        return Channel("speed", f"integral of {given.source}", given.times, speeds)
 
     def without(self, *names: str) -> "Drive":
         """Leave out some channels."""
@@ -150,3 +152,29 @@ class Drive:
             f"{channel.values.min():.4g} to {channel.values.max():.4g} {channel.unit}"
             for channel in self.channels.values()
         ]
+
+
+def speeds_by_acceleration(
+    times: Sequence[float] | FloatArray, values: Sequence[float] | FloatArray, start: float
+) -> FloatArray:
+    """Speeds in m/s at the instants of an acceleration, each value of which holds until the next.
+
+    Parameters
+    ----------
+    times, values : array_like, shape (k,)
+        In s and m/s^2.
+    start : float
+        Speed at the first instant [m/s].
+
+    Returns
+    -------
+    ndarray, shape (k,)
+        Within what a model follows.
+
+    Examples
+    --------
+    >>> speeds_by_acceleration([0.0, 2.0, 4.0], [0.5, -1.0, 0.0], 10.0)
+    array([10., 11.,  9.])
+    """
+    gained = np.cumsum(np.diff(times) * np.asarray(values, float)[:-1])
+    return np.clip(start + np.concatenate([[0.0], gained]), LOWEST_FOLLOWED, HIGHEST_SPEED)
