@@ -29,6 +29,14 @@ class PeakAmplification(NamedTuple):
     gain : float
     frequency : float
         Where it is reached, in Hz.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import peak_amplification
+    >>> round(float(peak_amplification(model).frequency), 2)
+    0.36
     """
 
     gain: float
@@ -36,7 +44,7 @@ class PeakAmplification(NamedTuple):
 
 
 def rearward_amplification(values: FloatArray) -> float:
-    """Rearward amplification in time, after ISO 14791 and SAE J2179.
+    """Return the rearward amplification in time, after ISO 14791 and SAE J2179.
 
     The largest magnitude at the last unit over the largest at the first. Of the standards only catalogue
     pages and secondary sources were readable. SAE J2179 is said to take the front axle for the first unit;
@@ -55,6 +63,16 @@ def rearward_amplification(values: FloatArray) -> float:
     ------
     AnalysisError
         If the first unit does not move.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import run_lane_change
+    >>> response = run_lane_change(model)
+    >>> from yawdamp_ros.analysis import rearward_amplification
+    >>> round(float(rearward_amplification(response.lateral_acceleration)), 2)
+    1.75
     """
     value = rearward_amplifications(values[np.newaxis]).only()
     return np.nan if value is None else value
@@ -70,7 +88,7 @@ def rearward_amplifications(values: FloatArray) -> Answers:
 
 
 def amplification_at(model: LinearModel, frequencies: FloatArray) -> FloatArray:
-    """``abs(G_ay,last / G_ay,first)`` in steady sine steering.
+    """Return ``abs(G_ay,last / G_ay,first)`` in steady sine steering.
 
     Parameters
     ----------
@@ -86,6 +104,15 @@ def amplification_at(model: LinearModel, frequencies: FloatArray) -> FloatArray:
     ------
     AnalysisError
         If a frequency is that of an undamped mode.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> import numpy as np
+    >>> from yawdamp_ros.analysis import amplification_at
+    >>> amplification_at(model, np.array([0.1, 0.4])).round(2).tolist()
+    [1.11, 2.2]
     """
     found = _ratios(_ends(stack_of(model)), np.asarray(frequencies)[:, np.newaxis])[:, 0]
     if not np.isfinite(found).all():
@@ -95,7 +122,7 @@ def amplification_at(model: LinearModel, frequencies: FloatArray) -> FloatArray:
 
 
 def peak_amplification(model: LinearModel) -> PeakAmplification:
-    """Rearward amplification by frequency of one vehicle, see `peak_amplifications`.
+    """Return the rearward amplification by frequency of one vehicle; see `peak_amplifications`.
 
     Parameters
     ----------
@@ -109,6 +136,14 @@ def peak_amplification(model: LinearModel) -> PeakAmplification:
     ------
     AnalysisError
         If the model is unstable, so that no steering leads to a steady sine.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import peak_amplification
+    >>> round(float(peak_amplification(model).gain), 2)
+    2.33
     """
     gains, frequencies = peak_amplifications(stack_of(model))
     return PeakAmplification(gains.only() or 0.0, frequencies.only() or 0.0)
@@ -169,7 +204,7 @@ def _ratios(ends: FrequencyResponse, frequencies: FloatArray) -> FloatArray:
 
 
 def _rises(ends: FrequencyResponse, frequencies: FloatArray) -> BoolArray:
-    """Whether the ratio rises with the frequency, shape (k,): ``d log abs G / d omega = -Im(G'/G)``."""
+    """True where the ratio rises with the frequency, shape (k,): ``d log abs G / d omega = -Im(G'/G)``."""
     s = np.asarray(2j * np.pi * frequencies, dtype=np.complex128)
     with np.errstate(divide="ignore", invalid="ignore"):
         first, last = ends.slopes(s) / ends.gains(s)

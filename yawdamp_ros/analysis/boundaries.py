@@ -1,4 +1,4 @@
-"""Where stability is won or lost as something varies, by root finding between the points of a scan."""
+"""Boundaries of stability as something varies, by root finding between the points of a scan."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -27,14 +27,23 @@ class Boundary:
     Attributes
     ----------
     value : float
-        Of what varies.
+        Value of the parameter that varies.
     unstable_above : bool
-        Whether it is the larger values that are unstable.
+        True if the larger values are unstable.
     kind : str
         ``monotonic`` where a real eigenvalue crosses, ``oscillatory`` where a pair does, ``jump`` where it
         passes infinity because the mass matrix is singular, as only the published one can be.
     frequency : float
-        Of the crossing pair in rad/s; 0 for a real eigenvalue.
+        Frequency of the crossing pair [rad/s]; 0 for a real eigenvalue.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import speed_boundaries
+    >>> stiff = [f"units.0.axles.{axle}.cornering_stiffness=2e5" for axle in (1, 2)]
+    >>> boundary = speed_boundaries(load_vehicle("interlink", stiff))[0]
+    >>> boundary.kind, boundary.unstable_above
+    ('monotonic', True)
     """
 
     value: float
@@ -60,6 +69,14 @@ def find_boundaries(
     -------
     tuple of Boundary
         In the order of the scan.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis import find_boundaries
+    >>> scan = [(value, complex(value - 2.0, 1.0)) for value in (0.0, 1.0, 3.0)]
+    >>> found = find_boundaries(lambda value: complex(value - 2.0, 1.0), scan)
+    >>> [round(boundary.value, 6) for boundary in found]
+    [2.0]
     """
     from scipy.optimize import brentq  # noqa: PLC0415 - it loads longer than most commands run
 
@@ -74,7 +91,7 @@ def find_boundaries(
 def speed_boundaries(
     vehicle: Vehicle, model: str = "consistent", speeds: tuple[float, float] = SPEEDS
 ) -> tuple[Boundary, ...]:
-    """Speeds at which a vehicle becomes unstable, or stable again.
+    """Return the speeds at which a vehicle becomes unstable, or stable again.
 
     Parameters
     ----------
@@ -93,6 +110,15 @@ def speed_boundaries(
     ------
     DynamicsError
         If there is no such model for this vehicle.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import critical_speed, speed_boundaries
+    >>> soft = [f"units.0.axles.{axle}.cornering_stiffness=2e5" for axle in (1, 2)]
+    >>> boundaries = speed_boundaries(load_vehicle("interlink", soft))
+    >>> len(boundaries)
+    1
     """
     matrices = StateMatrices.of(vehicle, model, 1)
     found = speed_brackets(matrices, speeds)
@@ -124,14 +150,53 @@ def critical_speeds(model: LinearModel) -> Answers:
 
 
 def critical_speed(boundaries: Iterable[Boundary]) -> float | None:
-    """Lowest speed in m/s at which an eigenvalue crosses into Re > 0 as the speed rises, if there is one."""
+    """Return the lowest speed at which an eigenvalue crosses into Re > 0 as the speed rises.
+
+    Parameters
+    ----------
+    boundaries : iterable of Boundary
+        As `speed_boundaries` returns them.
+
+    Returns
+    -------
+    float or None
+        In m/s; None if there is no such speed.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import critical_speed, speed_boundaries
+    >>> soft = [f"units.0.axles.{axle}.cornering_stiffness=2e5" for axle in (1, 2)]
+    >>> boundaries = speed_boundaries(load_vehicle("interlink", soft))
+    >>> round(critical_speed(boundaries), 1)
+    17.6
+    """
     return next((boundary.value for boundary in boundaries if boundary.unstable_above), None)
 
 
 def zero_damping_speed(boundaries: Iterable[Boundary]) -> float | None:
-    """Lowest speed in m/s at which the damping ratio of a swinging mode falls to 0, if there is one.
+    """Return the lowest speed at which the damping ratio of a swinging mode falls to 0.
 
     It is the zero-damping speed of ISO 14791, of which only the catalogue page was readable.
+
+    Parameters
+    ----------
+    boundaries : iterable of Boundary
+        As `speed_boundaries` returns them.
+
+    Returns
+    -------
+    float or None
+        In m/s; None if there is no such speed.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import speed_boundaries
+    >>> soft = [f"units.0.axles.{axle}.cornering_stiffness=2e5" for axle in (1, 2)]
+    >>> boundaries = speed_boundaries(load_vehicle("interlink", soft))
+    >>> from yawdamp_ros.analysis import zero_damping_speed
+    >>> zero_damping_speed(boundaries)
     """
     return next((b.value for b in boundaries if b.unstable_above and b.kind == "oscillatory"), None)
 

@@ -17,7 +17,7 @@ MOVING = 0.5
 
 @dataclass(frozen=True)
 class Mode:
-    """One eigenvalue of a state matrix, with its eigenvector seen as yaw rates.
+    """One eigenvalue of a state matrix, with its eigenvector as yaw rates.
 
     Attributes
     ----------
@@ -27,6 +27,15 @@ class Mode:
         Yaw rate of every unit in the mode, scaled so that the largest is 1; an argument is a phase lead.
     moving_units : tuple of str
         Units whose yaw rate is at least half the largest.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import modes
+    >>> mode = modes(model)[0]
+    >>> mode.moving_units, round(mode.damping_ratio, 3)
+    (('semitrailer_2',), 0.372)
     """
 
     eigenvalue: complex
@@ -50,7 +59,7 @@ class Mode:
 
 
 def modes(model: LinearModel) -> tuple[Mode, ...]:
-    """Modes of a model, one for every eigenvalue.
+    """Return the modes of a model, one for every eigenvalue.
 
     Parameters
     ----------
@@ -61,6 +70,14 @@ def modes(model: LinearModel) -> tuple[Mode, ...]:
     tuple of Mode
         Lightest damping first, then fastest first; of a conjugate pair the positive frequency first. It
         is the order of Table 6 of Frerichs (2012).
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import modes
+    >>> [round(mode.damping_ratio, 2) for mode in modes(model)][::2]
+    [0.37, 0.39, 0.44, 1.0]
     """
     eigenvalues, eigenvectors = np.linalg.eig(model.state_matrix)
     rates = eigenvectors[1 : len(model.vehicle.units) + 1].T
@@ -69,7 +86,24 @@ def modes(model: LinearModel) -> tuple[Mode, ...]:
 
 
 def least_damping_ratio(model: LinearModel) -> float:
-    """Damping ratio of the lightest damped mode."""
+    """Return the damping ratio of the lightest damped mode.
+
+    Parameters
+    ----------
+    model : LinearModel
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import least_damping_ratio
+    >>> round(least_damping_ratio(model), 3)
+    0.372
+    """
     return float(least_damping_ratios(stack_of(model)).values[0])
 
 
@@ -86,7 +120,23 @@ def damping_ratios(eigenvalues: ComplexArray) -> FloatArray:
 
 
 def growth(model: LinearModel) -> str:
-    """Warning of the fastest growing mode; empty if the vehicle is stable."""
+    """Return a warning of the fastest growing mode; empty if the vehicle is stable.
+
+    Parameters
+    ----------
+    model : LinearModel
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import growth
+    >>> growth(linear_model(load_vehicle("interlink")))
+    ''
+    """
     mode = max(modes(model), key=lambda mode: mode.eigenvalue.real)
     rate = mode.eigenvalue.real
     if rate <= 0.0:
@@ -100,7 +150,7 @@ def growth(model: LinearModel) -> str:
 
 
 def rightmost(state_matrix: FloatArray) -> complex:
-    """Eigenvalue with the largest real part, of a conjugate pair the one with positive imaginary part.
+    """Return the eigenvalue with the largest real part; of a pair the one with positive imaginary part.
 
     Parameters
     ----------
@@ -110,6 +160,14 @@ def rightmost(state_matrix: FloatArray) -> complex:
     -------
     complex
         In 1/s.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import rightmost
+    >>> round(rightmost(model.state_matrix).real, 3)
+    -0.852
     """
     eigenvalues = np.linalg.eigvals(state_matrix)
     value = complex(eigenvalues[np.argmax(eigenvalues.real)])

@@ -4,4 +4,14 @@ from yawdamp_ros.errors import YawdampError
 
 
 class AnalysisError(YawdampError):
-    """A question that this model cannot answer."""
+    """A question that this model cannot answer.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis import AnalysisError, parse_variation
+    >>> try:
+    ...     parse_variation("speed")
+    ... except AnalysisError as error:
+    ...     print(error)
+    speed: expected KEY=A:B:N, N values (2 or more) from A to B, as in speed=5:35:31
+    """

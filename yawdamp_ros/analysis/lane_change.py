@@ -34,6 +34,12 @@ class SingleLaneChange:
         In m/s^2.
     frequency : float
         In Hz.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis import SAE_J2179
+    >>> SAE_J2179.frequency
+    0.4
     """
 
     amplitude: float
@@ -58,7 +64,24 @@ SAE_J2179_SPEED = 88.0 / 3.6
 
 
 def steer_axle_position(vehicle: Vehicle) -> float:
-    """Position of the foremost steered axle of the lead unit from its centre of gravity, in m; or of each."""
+    """Return the position of the foremost steered axle of the lead unit, or of each of a stack.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    float
+        From the centre of gravity of the unit, forward positive [m].
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import steer_axle_position
+    >>> steer_axle_position(load_vehicle("interlink"))
+    0.04
+    """
     positions = [axle.position for axle in vehicle.units[0].axles if axle.steered]
     foremost: float = functools.reduce(np.maximum, positions)
     return foremost
@@ -67,7 +90,7 @@ def steer_axle_position(vehicle: Vehicle) -> float:
 def run_lane_change(
     model: LinearModel, change: SingleLaneChange = SAE_J2179, duration: float = DURATION
 ) -> Response:
-    """Motion of a vehicle whose steer axle follows the lane change.
+    """Return the motion of a vehicle whose steer axle follows the lane change.
 
     Parameters
     ----------
@@ -86,6 +109,15 @@ def run_lane_change(
     AnalysisError
         If the vehicle is unstable, or the units behind an axle that follows the path would swing out without
         bound (a zero of the model in the right half plane): no steering holds it on the path, then.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import run_lane_change
+    >>> response = run_lane_change(model)
+    >>> float(abs(response.lateral_acceleration[:, 0]).max().round(2))
+    1.65
     """
     run = LaneChangeRuns(stack_of(model), change, duration)
     if run.reasons:
@@ -234,7 +266,7 @@ class LaneChangeRuns:
         return rates
 
     def _refusals(self, closed: FloatArray) -> dict[int, str]:
-        """What no steering can lead through a lane change."""
+        """Reasons why no steering leads a vehicle through a lane change."""
         unstable = np.linalg.eigvals(self._model.state_matrix).real.max(axis=1) >= 0.0
         zeros = np.linalg.eigvals(closed).real.max(axis=1)
         speeds = np.broadcast_to(self._model.speed, self._count)

@@ -22,6 +22,15 @@ class Locus:
         In 1/s, those of each value by rising real, then imaginary part.
     boundaries : tuple of Boundary
         Where stability changes between the first and the last value.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import eigenvalue_locus
+    >>> interlink = load_vehicle("interlink")
+    >>> locus = eigenvalue_locus(lambda speed: linear_model(interlink, speed), [10.0, 20.0, 30.0])
+    >>> locus.eigenvalues.shape, locus.boundaries
+    ((3, 6), ())
     """
 
     values: FloatArray
@@ -34,7 +43,7 @@ def eigenvalue_locus(
     values: Sequence[float],
     progress: Callable[[Sequence[float]], Iterable[float]] = iter,
 ) -> Locus:
-    """Eigenvalues over values of a parameter, and the boundaries of stability among them.
+    """Return eigenvalues over values of a parameter, and the boundaries of stability among them.
 
     Parameters
     ----------
@@ -48,6 +57,15 @@ def eigenvalue_locus(
     Returns
     -------
     Locus
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> from yawdamp_ros.analysis import eigenvalue_locus
+    >>> interlink = load_vehicle("interlink")
+    >>> locus = eigenvalue_locus(lambda speed: linear_model(interlink, speed), [10.0, 20.0, 30.0])
+    >>> locus.values.tolist()
+    [10.0, 20.0, 30.0]
     """
     eigenvalues = np.array(
         [np.sort_complex(np.linalg.eigvals(model_at(value).state_matrix)) for value in progress(values)]

@@ -37,15 +37,23 @@ class Measure:
     Attributes
     ----------
     name : str
-        In tables, JSON and CSV.
+        Name in tables, JSON and CSV.
     unit : str
         Empty for a ratio.
     definition : str
         What is computed, and whose measure it is.
     answers : callable
-        Its values for the model of a stack of vehicles.
+        Values for the model of a stack of vehicles.
     speed : float or None
-        That its standard asks for, in m/s; None: the vehicle's own.
+        Speed that the standard asks for [m/s]; None for the vehicle's own.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import MEASURES
+    >>> round(MEASURES["rearward_amplification"].value(model), 1)
+    1.7
     """
 
     name: str
@@ -88,6 +96,12 @@ class VehicleMeasure:
         Whether the manoeuvre has its own speed, whatever is asked for.
     caveat : str
         Why the value is a lower bound, which can fail an upper limit but not meet it; empty where it is not.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis.measures import VEHICLE_MEASURES
+    >>> VEHICLE_MEASURES["tail_swing"].unit
+    'm'
     """
 
     name: str

@@ -30,7 +30,7 @@ class Path(NamedTuple):
 
 
 def axle_path(response: Response, unit: int, position: float) -> Path:
-    """Path of a point on a unit's centre line.
+    """Return the path of a point on a unit's centre line.
 
     Parameters
     ----------
@@ -44,12 +44,22 @@ def axle_path(response: Response, unit: int, position: float) -> Path:
     Returns
     -------
     Path
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import run_lane_change
+    >>> response = run_lane_change(model)
+    >>> from yawdamp_ros.analysis import axle_path
+    >>> axle_path(response, unit=3, position=-2.0).y.shape
+    (2401,)
     """
     return _on_axle(Paths(response.yaw, response.x, response.y), unit, np.asarray(position))
 
 
 def high_speed_transient_offtracking(vehicle: Vehicle, response: Response) -> float:
-    """Largest lateral distance between the paths of the last axle and of the steer axle in a lane change.
+    """Return the largest lateral distance between the paths of the last axle and of the steer axle.
 
     A measure of the Australian PBS scheme and of RTAC, read in secondary sources. Lateral is across the road,
     which runs along x.
@@ -64,6 +74,16 @@ def high_speed_transient_offtracking(vehicle: Vehicle, response: Response) -> fl
     -------
     float
         In m.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import run_lane_change
+    >>> response = run_lane_change(model)
+    >>> from yawdamp_ros.analysis import high_speed_transient_offtracking
+    >>> round(high_speed_transient_offtracking(model.vehicle, response), 2)
+    0.83
     """
     steer = axle_path(response, 0, steer_axle_position(vehicle))
     last = axle_path(response, len(vehicle.units) - 1, _last_axle(vehicle))
@@ -84,7 +104,7 @@ def lane_change_offtrackings(model: LinearModel) -> Answers:
 
 
 def steady_offtracking(model: LinearModel, radius: float = STEADY_RADIUS) -> float:
-    """Steady offtracking of one vehicle, see `steady_offtrackings`.
+    """Return the steady offtracking of one vehicle; see `steady_offtrackings`.
 
     Parameters
     ----------
@@ -101,6 +121,14 @@ def steady_offtracking(model: LinearModel, radius: float = STEADY_RADIUS) -> flo
     ------
     AnalysisError
         If no steer angle holds a steady turn on that radius.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import steady_offtracking
+    >>> round(float(steady_offtracking(model)), 2)
+    0.44
     """
     value = steady_offtrackings(stack_of(model), radius).only()
     return np.nan if value is None else value

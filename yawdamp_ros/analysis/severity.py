@@ -62,12 +62,12 @@ class Severity(NamedTuple):
 
     @property
     def straight(self) -> bool:
-        """Whether there is no turn, but ever harder braking."""
+        """True if there is no turn, but ever harder braking."""
         return bool(self.lateral_acceleration[-1] <= SLOWEST_TURN) and len(self.braking) > 1
 
     @property
     def stable(self) -> bool:
-        """Whether every turn is reached and every eigenvalue of it lies in the left half plane."""
+        """True if every turn is reached and every eigenvalue of it lies in the left half plane."""
         return not self.limit and bool((self.eigenvalues.real < 0.0).all())
 
     @property

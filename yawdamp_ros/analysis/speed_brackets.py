@@ -1,4 +1,4 @@
-"""Where stability is won or lost as the speed rises, for a stack of vehicles at once."""
+"""Brackets around speeds at which stability changes, for a stack of vehicles at once."""
 
 from typing import NamedTuple
 

@@ -23,6 +23,14 @@ class SteadyTurn:
         Of the lead unit's centre of gravity over yaw rate, in m.
     articulation : ndarray, shape (n - 1,)
         Articulation angles over yaw rate, in s.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import steady_turn
+    >>> round(float(steady_turn(model).steering_angle), 3)
+    0.18
     """
 
     steering_angle: float
@@ -41,6 +49,14 @@ class Steering:
         tyres of an axle group scrub in a turn, which lengthens it.
     understeer_gradient : float
         In rad/(m/s^2); positive is understeer.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import steady_steering
+    >>> round(float(steady_steering(model).equivalent_wheelbase), 2)
+    4.0
     """
 
     equivalent_wheelbase: float
@@ -90,6 +106,14 @@ def steady_turn(model: LinearModel) -> SteadyTurn:
     ------
     AnalysisError
         If no steer angle holds such a turn.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import steady_turn
+    >>> steady_turn(model).articulation.shape
+    (3,)
     """
     turns = steady_turns(stack_of(model))
     if np.isnan(turns.steering_angle[0]):
@@ -116,6 +140,14 @@ def steady_steering(model: LinearModel) -> Steering:
     ------
     AnalysisError
         If no steer angle holds a steady turn.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import steady_steering
+    >>> round(float(steady_steering(model).understeer_gradient), 5)
+    0.0
     """
     steady_turn(model)
     wheelbase, gradient = _steerings(stack_of(model))
@@ -140,7 +172,7 @@ def _steerings(model: LinearModel) -> tuple[FloatArray, FloatArray]:
 
 
 def static_gains(model: LinearModel) -> dict[str, float]:
-    """Steady value of every output for a road-wheel steer angle of 1 rad, by output name.
+    """Return the steady value of every output for a road-wheel steer angle of 1 rad, by output name.
 
     Parameters
     ----------
@@ -155,6 +187,14 @@ def static_gains(model: LinearModel) -> dict[str, float]:
     ------
     AnalysisError
         If the state matrix is singular, as it is at a monotonic critical speed.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import static_gains
+    >>> round(float(static_gains(model)["tractor/yaw_rate"]), 2)
+    5.55
     """
     try:
         state = np.linalg.solve(model.state_matrix, -model.input_matrix)

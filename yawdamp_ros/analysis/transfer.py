@@ -25,6 +25,14 @@ class TransferFunction:
     input_matrix : ndarray, shape (m,)
     output_row : ndarray, shape (m,)
     feedthrough : float
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import transfer_function
+    >>> round(abs(transfer_function(model, "tractor/yaw_rate")(2j)), 2)
+    5.44
     """
 
     output: str
@@ -86,7 +94,7 @@ class TransferFunction:
 
 
 def transfer_function(model: LinearModel, output: str) -> TransferFunction:
-    """Transfer function from the road-wheel steer angle to an output.
+    """Return the transfer function from the road-wheel steer angle to an output.
 
     Parameters
     ----------
@@ -102,6 +110,14 @@ def transfer_function(model: LinearModel, output: str) -> TransferFunction:
     ------
     AnalysisError
         If there is no such output.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import transfer_function
+    >>> transfer_function(model, "tractor/yaw_rate").output
+    'tractor/yaw_rate'
     """
     if output not in model.output_names:
         message = f"output: {output!r}: expected one of {', '.join(model.output_names)}"

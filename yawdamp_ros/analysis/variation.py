@@ -22,6 +22,12 @@ class Variation:
         As overrides take them.
     values : tuple of float
         Evenly spaced.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis import Variation
+    >>> Variation(("units.1.mass", "units.2.mass"), (1e4, 2e4)).values
+    (10000.0, 20000.0)
     """
 
     keys: tuple[str, ...]
@@ -62,12 +68,26 @@ class Variation:
 
 
 def parse_variation(text: str) -> Variation:
-    """Read ``KEY=A:B:N``, N values from A to B, where KEY may be several keys separated by commas.
+    """Read ``KEY=A:B:N``: N values from A to B; KEY may be several keys separated by commas.
+
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    Variation
 
     Raises
     ------
     AnalysisError
         If the text is not that.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis import parse_variation
+    >>> parse_variation("speed=10:30:3").values
+    (10.0, 20.0, 30.0)
     """
     keys, _, span = text.partition("=")
     names = tuple(keys.split(","))

@@ -60,7 +60,7 @@ class ModesOfDecay(NamedTuple):
 
     @property
     def swinging(self) -> BoolArray:
-        """Whether a mode swings, shape (k, m): the first of a pair whose next peak of the same sign is seen.
+        """True where a mode swings, shape (k, m): the first of a pair whose next peak of its sign is seen.
 
         Of two peaks of the same sign a critically damped pair, or one close to it, has the second below
         rounding.
@@ -174,7 +174,7 @@ def yaw_damping_coefficient(model: LinearModel) -> float:
 
 
 def damping_of_peaks(values: FloatArray) -> float:
-    """Damping by the definition of the Australian PBS scheme, from the peaks of a decay that was measured.
+    """Return the damping by the definition of the Australian PBS scheme, from the peaks of a decay.
 
     ``D = ln r / sqrt(4 pi^2 + ln^2 r)`` where r is the mean ratio of successive peaks **of the same sign**,
     those above zero and those below it taken alike. A ratio of successive peaks of either sign spans half a
@@ -196,6 +196,14 @@ def damping_of_peaks(values: FloatArray) -> float:
     ------
     AnalysisError
         If there are no two peaks of the same sign: the motion does not swing.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from yawdamp_ros.analysis import damping_of_peaks
+    >>> time = np.linspace(0.0, 10.0, 2001)
+    >>> round(float(damping_of_peaks(np.exp(-0.2 * time) * np.sin(2.0 * time))), 2)
+    0.1
     """
     extrema = _extrema(values)
     extrema = _longest_swing(extrema[np.abs(extrema) > _SMALLEST * np.abs(values).max()])
@@ -208,7 +216,7 @@ def damping_of_peaks(values: FloatArray) -> float:
 
 
 def pulse_decay(model: LinearModel) -> FloatArray:
-    """Yaw rate of the last unit after a pulse of steering has ended.
+    """Return the yaw rate of the last unit after a pulse of steering has ended.
 
     Parameters
     ----------
@@ -219,6 +227,14 @@ def pulse_decay(model: LinearModel) -> FloatArray:
     ndarray, shape (m,)
         In rad/s for a pulse of 1 rad over `PULSE_WIDTH`, which the damping does not depend on, evenly sampled
         until the slowest mode has died out or, of an unstable vehicle, the fastest has grown as far.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import linear_model, load_vehicle
+    >>> model = linear_model(load_vehicle("a_double"))
+    >>> from yawdamp_ros.analysis import pulse_decay
+    >>> pulse_decay(model).ndim
+    1
     """
     size = len(model.state_matrix)
     held = np.zeros((size + 1, size + 1))

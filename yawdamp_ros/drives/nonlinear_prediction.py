@@ -1,4 +1,4 @@
-"""What the nonlinear model of a vehicle makes of a drive, step by step."""
+"""Prediction of a drive by the nonlinear model, step by step."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""What the simulator says of itself, once a second."""
+"""Diagnostics of the simulator, published once a second."""
 
 from collections.abc import Mapping
 from typing import NamedTuple

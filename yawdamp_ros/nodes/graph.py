@@ -155,7 +155,7 @@ def spinning(node: Node) -> Iterator[None]:
 
 
 def _is_of_rclpy(error: RuntimeError) -> bool:
-    """Whether an error is rcl's, such as of a node that it cannot make: rclpy exports no class for them."""
+    """Return whether an error is rcl's, as for a node that it cannot make; rclpy exports no class for it."""
     return type(error).__module__.partition(".")[0] == "rclpy"
 
 

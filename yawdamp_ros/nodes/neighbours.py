@@ -38,7 +38,7 @@ class Finding(NamedTuple):
 
 
 class Neighbourhood(NamedTuple):
-    """What was found at one look.
+    """Findings of one look at the graph.
 
     Attributes
     ----------
@@ -187,7 +187,7 @@ def endpoint_name(endpoint: TopicEndpointInfo) -> str:
 
 
 def is_cut_off(descriptors: Path = DESCRIPTORS) -> bool:
-    """Whether files that this process holds for Fast DDS have gone, as when /dev/shm is tidied up.
+    """True if files that this process holds for Fast DDS are gone, as when /dev/shm is cleaned.
 
     Where that cannot be told, without /proc or a free descriptor, they count as there.
     """

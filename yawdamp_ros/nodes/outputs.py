@@ -1,4 +1,4 @@
-"""What the simulator publishes of a sample."""
+"""Publishers of a sample."""
 
 from collections import Counter
 from typing import Any
@@ -68,7 +68,7 @@ class Topics:
 
     @property
     def clock(self) -> bool:
-        """Whether simulated time goes out on /clock."""
+        """True if simulated time is published on /clock."""
         return self._clock is not None
 
     def publish_clock(self) -> None:

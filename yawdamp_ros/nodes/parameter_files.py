@@ -72,6 +72,6 @@ def _node_names(tree: Any, above: str = "") -> Iterator[str]:  # noqa: ANN401 - 
 
 
 def _fits(pattern: str, node_name: str) -> bool:
-    """Whether a name matches a pattern, in which * is one part of it and ** any number of them."""
+    """Return whether a name matches a pattern, in which * is one part of it and ** any number of them."""
     expression = re.escape(pattern).replace(r"/\*\*", "(/[^/]+)*").replace(r"\*", "[^/]+")
     return re.fullmatch(expression, node_name) is not None

@@ -192,7 +192,7 @@ def _check(name: str, value: Any) -> None:  # noqa: ANN401 - of any type that a 
 
 
 def _is_confined(directory: str) -> bool:
-    """Whether a path that any peer on the graph can have set stays below the working directory."""
+    """Return whether a path, which any peer may have set, stays below the working directory."""
     path = Path(directory)
     if path.is_absolute() or ".." in path.parts or not directory.isprintable():
         return False

@@ -28,7 +28,7 @@ class Recorder:
 
     @property
     def recording(self) -> bool:
-        """Whether a run is being written, or at least tried to be."""
+        """True while a run is being written, also if writing fails."""
         return self._writer is not None
 
     @property

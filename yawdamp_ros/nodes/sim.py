@@ -93,14 +93,14 @@ class Simulator:
 
     @property
     def finished(self) -> bool:
-        """Whether the run has lasted as long as it was to, or was stopped before."""
+        """True if the run has reached its duration or was stopped before."""
         duration = self.settings.duration
         lasted = bool(duration) and self.run.samples > self.grid.samples_in(duration)
         return lasted or self.run.stopped is not None
 
     @property
     def flawless(self) -> bool:
-        """Whether the run was not stopped and everything was recorded that was to be."""
+        """True if the run was not stopped and recorded everything."""
         return not (self.run.stopped or self.recorder.lost or self.recorder.failure)
 
     def publish_first(self) -> None:

@@ -8,7 +8,7 @@ from yawdamp_ros.stepping import Verdict
 
 
 class TimingState(StrEnum):
-    """Whether simulated time keeps up with real time."""
+    """Keys that say whether simulated time keeps up with real time."""
 
     IN_TIME = "in_time"
     PAUSED = "paused"
@@ -26,7 +26,7 @@ class SteeringState(StrEnum):
 
 
 class InputState(StrEnum):
-    """Whether inputs besides the steering have come."""
+    """Keys that say whether inputs besides the steering have come."""
 
     NO_COMMAND = "no_command"
     COMMANDED = "commanded"

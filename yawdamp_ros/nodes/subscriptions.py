@@ -1,4 +1,4 @@
-"""What the simulator listens to."""
+"""Subscriptions of the simulator."""
 
 import time
 from collections.abc import Callable

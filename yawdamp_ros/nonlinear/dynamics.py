@@ -50,6 +50,16 @@ class Steps:
         That began in these steps and not before.
     diverged : str
         Name of the unit whose motion diverges in the next step; empty otherwise.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import NonlinearDynamics
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> dynamics = NonlinearDynamics(load_vehicle("truck_trailer"))
+    >>> state, inputs = dynamics.initial_state(20.0), dynamics.inputs(steering=0.02, speed=20.0)
+    >>> run = dynamics.steps(state, inputs, dt=0.001, count=1000, every=100)
+    >>> run.taken, run.rolled_over
+    (1000, '')
     """
 
     states: FloatArray
@@ -109,7 +119,7 @@ class NonlinearDynamics:
 
     @property
     def lagging_wheels(self) -> npt.NDArray[np.bool_]:
-        """Whether the force of each wheel lags behind its slip."""
+        """True for each wheel whose force lags behind its slip."""
         return np.repeat(self.parameters.axles[:, RELAXATION_LENGTH] > 0.0, 2)
 
     def inputs(

@@ -35,6 +35,12 @@ class EventKind(StrEnum):
     A wheel lifts when it carries no load; it locks when its brake force passes friction while it moves. A
     joint jackknifes when it reaches its `max_articulation`. A trailer swings when the centre of its axles
     slides sideways at more than `Settings.swing_angle`. A unit rolls over past `Settings.rollover_angle`.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import EventKind
+    >>> sorted(kind.name for kind in EventKind)[:2]
+    ['JACKKNIFE', 'ROLLOVER']
     """
 
     WHEEL_LIFT = "wheel_lift"
@@ -59,6 +65,12 @@ class Event:
         Number of the axle on its unit, from 0.
     side : str
         ``left`` or ``right`` of a wheel, else empty.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import Event, EventKind
+    >>> Event(list(EventKind)[0], step=120, unit="truck", axle=1, side="left").unit
+    'truck'
     """
 
     kind: EventKind

@@ -140,6 +140,13 @@ class InputLayout:
     Parameters
     ----------
     units, axles : int
+        Numbers of the whole combination.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import InputLayout
+    >>> InputLayout(units=2, axles=3).brake
+    slice(11, 13, None)
     """
 
     units: int

@@ -58,6 +58,16 @@ class Outputs(NamedTuple):
     wheel_load, slip, slide, longitudinal_force, lateral_force : ndarray, shape (m, 2 a)
         Of every wheel, left before right: load [N], lateral slip, share by which a braked wheel slides, and
         forces in the wheel's frame [N].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import NonlinearDynamics
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> dynamics = NonlinearDynamics(load_vehicle("truck_trailer"))
+    >>> state, inputs = dynamics.initial_state(20.0), dynamics.inputs(steering=0.02, speed=20.0)
+    >>> run = dynamics.steps(state, inputs, dt=0.001, count=1000, every=100)
+    >>> dynamics.outputs(run.states, inputs).yaw_rate.shape
+    (10, 2)
     """
 
     position: FloatArray

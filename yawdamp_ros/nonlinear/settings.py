@@ -30,6 +30,12 @@ class Settings:
         Roll angle from which no unit comes back; the run ends there [rad].
     swing_angle : float
         Side slip angle at the middle of a trailer's axles from which it swings [rad].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import Settings
+    >>> Settings(roll=False).track
+    True
     """
 
     track: bool = True

@@ -26,11 +26,20 @@ class SteadyTurn:
     Attributes
     ----------
     state : ndarray, shape (m,)
-        At the origin, along X.
+        State at the origin, along X.
     inputs : ndarray
-        That hold it: the steer angle, and the speed that the controller is asked for.
+        Inputs that hold the turn: the steer angle, and the speed that the controller is asked for.
     outputs : Outputs
-        Of this one instant.
+        Outputs of this one instant.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import NonlinearDynamics, steady_turn
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> dynamics = NonlinearDynamics(load_vehicle("truck_trailer"))
+    >>> turn = steady_turn(dynamics, 20.0, dynamics.inputs(), lateral_acceleration=2.0)
+    >>> bool(turn.outputs.yaw_rate[0, 0] > 0.0)
+    True
     """
 
     state: FloatArray
@@ -53,6 +62,16 @@ class Linearisation:
         Elements of the model's state that x holds; those that the settings keep at rest are left out.
     output_names : tuple of str
         As `LinearModel.output_names`, then the roll angles.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.nonlinear import NonlinearDynamics, linearise, steady_turn
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> dynamics = NonlinearDynamics(load_vehicle("truck_trailer"))
+    >>> turn = steady_turn(dynamics, 20.0, dynamics.inputs(), lateral_acceleration=2.0)
+    >>> linear = linearise(dynamics, turn.state, turn.inputs)
+    >>> linear.output_names[:1]
+    ('truck/lateral_velocity',)
     """
 
     state_matrix: FloatArray

@@ -28,7 +28,7 @@ NO_SIGNALS: Mapping[str, Signal] = MappingProxyType({})
 
 
 class Commands:
-    """The source of a run that is driven: by a manoeuvre, by a log, or by whoever calls `steer` and `demand`.
+    """Source of a run that is driven by a manoeuvre, a log, or calls of `steer` and `demand`.
 
     Parameters
     ----------
@@ -53,6 +53,17 @@ class Commands:
         If the settings' manoeuvre cannot be.
     SimulationError
         If the model does not take one of the inputs.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import Commands, SimParameters, make_motion
+    >>> from yawdamp_ros.stepping import TimeGrid
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> motion = make_motion(load_vehicle("truck_trailer"), "consistent", speed=20.0, step_size=0.001)
+    >>> settings = SimParameters(manoeuvre="step", amplitude=0.02)
+    >>> source = Commands(settings, TimeGrid.of(0.001, 0.01), motion)
+    >>> sorted(source.held)
+    ['speed']
     """
 
     def __init__(
@@ -119,7 +130,7 @@ class Commands:
 
     @property
     def commanded(self) -> bool:
-        """Whether a command has been accepted."""
+        """True if a command has been accepted."""
         step = self._motion.step
         if self.steering_input.silence(step) is not None:
             return True
@@ -215,7 +226,7 @@ class Commands:
 
 
 def _limits(settings: SimParameters, grid: TimeGrid) -> dict[str, Any]:
-    """What of the settings a `SteeringInput` goes by while running."""
+    """Settings that a `SteeringInput` follows while running."""
     return {
         "limit": settings.max_steering_angle,
         "timeout_steps": nanoseconds(settings.steering_timeout) // grid.step_ns,

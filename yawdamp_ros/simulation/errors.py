@@ -4,4 +4,15 @@ from yawdamp_ros.errors import YawdampError
 
 
 class SimulationError(YawdampError):
-    """A run that cannot be as it was asked for."""
+    """A run that is not possible as it was asked for.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import SimulationError, make_motion
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> try:
+    ...     make_motion(load_vehicle("interlink"), "cubic", None, 0.001)
+    ... except SimulationError as error:
+    ...     print(error)
+    model: 'cubic': expected one of consistent, published, nonlinear
+    """

@@ -1,4 +1,4 @@
-"""What a notebook calls: a vehicle, its steering, and arrays back."""
+"""Offline runs in memory: a vehicle and its steering in, arrays out."""
 
 from pathlib import Path
 

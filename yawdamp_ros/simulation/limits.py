@@ -1,4 +1,4 @@
-"""Where a motion has lost its meaning."""
+"""Limits beyond which a motion means nothing."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -14,7 +14,7 @@ MEANINGLESS = "where the model means nothing"
 
 
 class Limits(NamedTuple):
-    """Largest magnitudes that a run goes on with.
+    """Largest magnitudes at which a run goes on.
 
     Attributes
     ----------
@@ -22,6 +22,12 @@ class Limits(NamedTuple):
         Of any unit, m/s^2.
     articulation : float
         Of any joint, rad.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import Limits
+    >>> Limits(lateral_acceleration=4.0, articulation=0.2).articulation
+    0.2
     """
 
     lateral_acceleration: float
@@ -39,18 +45,24 @@ class Limits(NamedTuple):
 
 
 class Stop(NamedTuple):
-    """Why a run was stopped before its end.
+    """Reason why a run was stopped before its end.
 
     Attributes
     ----------
     step : int
-        Of the first instant that is not part of it.
+        First step that is not part of the run.
     key : str
         Quantity that passed its limit, or name of the event.
     where : str
         Unit, joint or wheel.
     reason : str
-        In words.
+        Sentence for a user.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import Stop
+    >>> Stop(step=120, key="articulation", where="truck and trailer", reason="articulation past 1 rad").key
+    'articulation'
     """
 
     step: int
@@ -95,7 +107,7 @@ def limit_violation(
 
 
 def _within(values: FloatArray, limit: float) -> bool:
-    """Whether every magnitude is within a limit; no number is not."""
+    """Return whether every magnitude is within a limit; NaN is not."""
     if values.ndim == 1:  # of a few units NumPy takes longer
         return all(abs(value) <= limit for value in values.tolist())
     return bool((np.abs(values) <= limit).all())

@@ -1,4 +1,4 @@
-"""Where a run leaves the range in which a truck does what the linear model does."""
+"""Range in which a truck does what the linear model does."""
 
 from collections.abc import Callable, Sequence
 
@@ -9,7 +9,7 @@ BEYOND = "where tyres saturate and a truck may roll over: the model is linear, a
 
 
 class LinearRange:
-    """A sink that tells where a run exceeds the levels of a warning; the run goes on.
+    """A sink that reports when a run exceeds the levels of a warning; the run goes on.
 
     Parameters
     ----------
@@ -25,6 +25,17 @@ class LinearRange:
         First instant past a level.
     latest : Stop or None
         Newest one since `look`.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import Limits, LinearRange
+    >>> from yawdamp_ros.simulation import make_motion
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> motion = make_motion(load_vehicle("truck_trailer"), "consistent", speed=20.0, step_size=0.001)
+    >>> watched = LinearRange(["truck", "trailer"], Limits(lateral_acceleration=1.0, articulation=0.2))
+    >>> watched.write(motion.run([0.05] * 1000))
+    >>> watched.first.where
+    'truck'
     """
 
     def __init__(
@@ -38,7 +49,7 @@ class LinearRange:
 
     @property
     def sentence(self) -> str:
-        """What is to be said of the run; empty if it stayed within."""
+        """Sentence on a run that left the range; empty if it stayed within."""
         return "" if self.first is None else self.first.reason
 
     def look(self) -> Stop | None:

@@ -34,7 +34,7 @@ MODELS: Mapping[str, Factory] = MappingProxyType(
 def make_motion(
     vehicle: Vehicle, model: str, speed: float | None, step_size: float, start: Start | None = None
 ) -> Motion:
-    """Motion of a vehicle by the model of a name, straight at the origin unless a start is given.
+    """Return the motion of a vehicle by the model of a name, at rest at the origin.
 
     Parameters
     ----------
@@ -57,6 +57,14 @@ def make_motion(
         If there is no such model.
     YawdampError
         If the model cannot be of this vehicle at that speed.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import make_motion
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> motion = make_motion(load_vehicle("interlink"), "consistent", speed=20.0, step_size=0.001)
+    >>> motion.run([0.01] * 1000).yaw_rate.round(4).tolist()
+    [0.0305, 0.0306, 0.0214]
     """
     if model not in MODELS:
         message = f"model: {model!r}: expected one of {', '.join(MODELS)}"

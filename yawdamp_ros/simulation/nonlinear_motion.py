@@ -232,7 +232,7 @@ class NonlinearMotion:
         self._told.append(applied)
 
     def _input_places(self) -> dict[str, tuple[slice | list[int], float]]:
-        """Where each input goes in the input vector, and what it is multiplied by."""
+        """Place of each input in the input vector, and its factor."""
         layout = self._dynamics.input_layout
         places: dict[str, tuple[slice | list[int], float]] = {
             "steering": (slice(STEERING, STEERING + 1), 1.0),

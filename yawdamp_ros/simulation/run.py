@@ -15,7 +15,23 @@ SAMPLES_AT_ONCE = 1000
 
 
 class Source(Protocol):
-    """Where the inputs of a run come from: `Commands`, or what another run recorded."""
+    """Source of the inputs of a run: `Commands`, or the recording of another run.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import Commands, Run, SimParameters, make_motion
+    >>> from yawdamp_ros.stepping import TimeGrid
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> motion = make_motion(load_vehicle("truck_trailer"), "consistent", speed=20.0, step_size=0.001)
+    >>> grid = TimeGrid.of(0.001, 0.01)
+    >>> settings = SimParameters(manoeuvre="step", amplitude=0.02)
+    >>> source = Commands(settings, grid, motion)
+    >>> run = Run(motion, grid, source, sinks=[])
+    >>> run.start()
+    >>> run.advance(1)
+    >>> run.samples
+    2
+    """
 
     def inputs(self, steps: range) -> Sequence[AppliedInput]:
         """Inputs other than steering that act from one of these steps on, in order, each told once."""
@@ -28,7 +44,7 @@ class Source(Protocol):
 
 
 class Run:
-    """Steps a motion as its source says, and hands every sample to its sinks until a limit is passed.
+    """Steps a motion as its source demands, and hands every sample to its sinks until a limit is passed.
 
     The same for the node, for `simulate` and for `resimulate`.
 
@@ -50,6 +66,21 @@ class Run:
         Why it was stopped; nothing is handed on any more.
     events : list of Event
         What happened so far, in order of time.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import Commands, Run, SimParameters, make_motion
+    >>> from yawdamp_ros.stepping import TimeGrid
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> motion = make_motion(load_vehicle("truck_trailer"), "consistent", speed=20.0, step_size=0.001)
+    >>> grid = TimeGrid.of(0.001, 0.01)
+    >>> settings = SimParameters(manoeuvre="step", amplitude=0.02)
+    >>> source = Commands(settings, grid, motion)
+    >>> run = Run(motion, grid, source, sinks=[])
+    >>> run.start()
+    >>> run.advance(200)
+    >>> run.samples, run.stopped
+    (201, None)
     """
 
     def __init__(

@@ -65,7 +65,14 @@ def _setting(name: str, description: str, constraint: str) -> Any:  # noqa: ANN4
 # ruff: noqa: RUF009 - each default is a dataclasses.field
 @dataclass(frozen=True)
 class SimParameters:
-    """What the simulator node can be asked for; `PARAMETERS` holds the names that a ROS graph sees."""
+    """Parameters of the simulator node; `PARAMETERS` holds the names that a ROS graph sees.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.simulation import SimParameters
+    >>> SimParameters(vehicle="a_double").publish_rate
+    100.0
+    """
 
     vehicle: str = _parameter("interlink", "builtin name or path of a vehicle file")
     vehicle_overrides: list[str] = _parameter(
@@ -224,7 +231,7 @@ class SimParameters:
     )
 
     def problem(self) -> str:
-        """What is wrong with these values taken together; empty if nothing is."""
+        """First conflict between these values; empty if there is none."""
         if problem := self._start_problem() or self._model_problem():
             return problem
         if 0.0 < self.real_time_factor < SLOWEST:
@@ -278,7 +285,7 @@ class SimParameters:
 
     @property
     def clock(self) -> bool:
-        """Whether simulated time goes out on /clock: unless said, where it is not real time."""
+        """True if simulated time is published on /clock; by default where it is not real time."""
         return self.real_time_factor != 1.0 if self.publish_clock is None else self.publish_clock
 
     @property
