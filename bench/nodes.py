@@ -91,7 +91,7 @@ def sim_keeps_up(rate: float, directory: Path) -> bool:
     options = ["--publish-rate", str(rate), "--step-size", str(1.0 / rate), "--duration", str(RATE_SECONDS)]
     command = [*SIM, "--no-record", *options]
     done = subprocess.run(command, cwd=directory, capture_output=True, text=True, check=True)  # noqa: S603
-    return "given up" not in done.stdout
+    return "steps dropped" not in done.stdout
 
 
 def highest_rate(keeps_up: Callable[[float, Path], bool], directory: Path) -> float:

@@ -19,7 +19,7 @@ def test_a_csv_is_run_again_with_the_vehicle_it_is_told(
     assert run(["resimulate", str(csv_run), "--vehicle", "truck_trailer", "--speed", "25"]) == 0
     shown = capsys.readouterr().out
     assert "2001 samples, 14007 values over 2 s" in shown
-    assert "promised is 1e-9 of the motion, for a CSV file does not say where it was made" in shown
+    assert "promised is 1e-9 of the motion, for a CSV file does not record its build" in shown
     assert "every value is bit-identical" in shown
 
 

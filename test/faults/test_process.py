@@ -76,7 +76,7 @@ def test_whatever_signals_come_while_it_ends_it_ends_in_good_order(graph: Graph)
         assert run(["resimulate", str(graph.directory / str(index))]) == 0
 
 
-def test_three_seconds_of_standstill_are_given_up_and_counted_and_not_made_up_for_in_a_burst(
+def test_three_seconds_of_standstill_are_dropped_and_counted_and_not_made_up_for_in_a_burst(
     graph: Graph,
 ) -> None:
     graph.listen({"/truck/imu": Imu})
@@ -87,16 +87,16 @@ def test_three_seconds_of_standstill_are_given_up_and_counted_and_not_made_up_fo
     time.sleep(3.0)
     process.send_signal(signal.SIGCONT)
 
-    def given_up() -> int:
+    def dropped() -> int:
         return int(values(statuses("timing"))["steps_dropped"])
 
     # All but the 0.1 s that are made up for, and the sample that was under way.
-    until(lambda: given_up() >= 2890, "the count of steps")
+    until(lambda: dropped() >= 2890, "the count of steps")
     more_samples(graph, 20)
     status, output, errors = stop(process)
     assert status == 0
     assert "late by more than can be made up for" in errors
-    assert "steps given up" in output
+    assert "steps dropped" in output
     found = simulated_times(run_directory(graph.directory))
     assert np.diff(found).tolist() == [PERIOD] * (len(found) - 1)
 

@@ -13,7 +13,7 @@ import pytest
 from random_vehicles import made_up
 from yawdamp_ros import linear_model
 from yawdamp_ros.dynamics import LinearModel
-from yawdamp_ros.runs.csv_resimulation import TOLERANCE, first_parting
+from yawdamp_ros.runs.csv_resimulation import TOLERANCE, first_mismatch
 from yawdamp_ros.stepping import Response, TimeGrid
 from yawdamp_ros.stepping.response import respond
 
@@ -67,8 +67,8 @@ def test_1000_stable_vehicles_agree_with_other_blas_kernels(tmp_path: Path) -> N
         repeated = replace(
             response, yaw=yaw, yaw_rate=yaw_rate, lateral_acceleration=acceleration, articulation=articulation
         )
-        assert first_parting(response, repeated, TOLERANCE) is None
-        parted += first_parting(response, repeated, 0.0) is not None
+        assert first_mismatch(response, repeated, TOLERANCE) is None
+        parted += first_mismatch(response, repeated, 0.0) is not None
     assert parted > VEHICLES / 2  # they are other kernels
 
 
@@ -77,7 +77,7 @@ def test_a_difference_of_more_than_that_is_found() -> None:
     response = respond(model, 0.03 * np.sin(0.012 * np.arange(STEPS)), GRID)
     changed = response.yaw_rate.copy()
     changed[100, -1] += 3.0 * TOLERANCE * np.abs(changed).max()
-    found = first_parting(response, replace(response, yaw_rate=changed), TOLERANCE)
+    found = first_mismatch(response, replace(response, yaw_rate=changed), TOLERANCE)
     assert (found.time, found.quantity) == (0.5, "yaw_rate")
 
 

@@ -142,16 +142,16 @@ def test_time_keeps_up_for_a_minute_on_busy_cores_or_says_what_it_lost(graph: Gr
     process.terminate()
     process.communicate()
     first = looks[0]
-    # Simulated time and what was given up make up the time that went by, but for the sample under way.
+    # Simulated time and what was dropped make up the time that went by, but for the sample under way.
     behind = [
-        (stamp - first[0]) - (simulated - first[1]) - 0.001 * (given_up - first[2])
-        for stamp, simulated, given_up in looks[1:]
+        (stamp - first[0]) - (simulated - first[1]) - 0.001 * (dropped - first[2])
+        for stamp, simulated, dropped in looks[1:]
     ]
     say(
-        f"{len(looks) - 1} s on busy cores: {looks[-1][2]} steps given up; "
+        f"{len(looks) - 1} s on busy cores: {looks[-1][2]} steps dropped; "
         f"beyond them {1e3 * min(behind):.1f} to {1e3 * max(behind):.1f} ms behind, one sample being 10 ms"
     )
-    # Nothing is lost for good without being counted: more than 0.1 s would have been given up.
+    # Nothing is lost for good without being counted: more than 0.1 s would have been dropped.
     assert looks[-1][0] - looks[0][0] >= 55.0
     assert len(looks) > 55
     assert sum(abs(value) <= 0.011 for value in behind) > len(behind) // 2

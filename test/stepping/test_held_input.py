@@ -11,9 +11,9 @@ def speed() -> HeldInput:
 
 def test_the_newest_value_is_held_and_its_age_counted_in_steps() -> None:
     source = speed()
-    assert (source.value, source.silence(9)) == (20.0, None)
+    assert (source.value, source.steps_since_command(9)) == (20.0, None)
     assert source.offer(21.5, 3) is Verdict.ACCEPTED
-    assert (source.value, source.silence(9)) == (21.5, 6)
+    assert (source.value, source.steps_since_command(9)) == (21.5, 6)
 
 
 @pytest.mark.parametrize(
@@ -28,7 +28,7 @@ def test_the_newest_value_is_held_and_its_age_counted_in_steps() -> None:
 def test_what_is_no_speed_forwards_is_rejected_and_counted(value: float, verdict: Verdict) -> None:
     source = speed()
     assert source.offer(value, 1) is verdict
-    assert (source.value, source.silence(1)) == (20.0, None)
+    assert (source.value, source.steps_since_command(1)) == (20.0, None)
     assert {key for key, count in source.counts.items() if count} == {verdict}
 
 

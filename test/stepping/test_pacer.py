@@ -12,7 +12,7 @@ def test_a_period_is_due_once_it_is_over() -> None:
     assert [pacer.due(now)[:2] for now in (1009, 1010, 1011, 1045)] == [(0, 0), (1, 0), (0, 0), (3, 0)]
 
 
-def test_what_is_too_late_is_given_up_once() -> None:
+def test_what_is_too_late_is_dropped_once() -> None:
     # A tenth of a second is five periods of 20 ms; ten are made up for all the same.
     pacer = Pacer(20 * MS, rate=1.0, now=0)
     assert pacer.due(1000 * MS)[:2] == (10, 40)
@@ -40,13 +40,13 @@ def test_time_that_stood_is_not_due() -> None:
 
 
 @given(st.lists(st.integers(0, 2000 * 10**6), max_size=50))
-def test_periods_simulated_and_given_up_make_up_the_time_that_went_by(waits: list[int]) -> None:
+def test_periods_simulated_and_dropped_make_up_the_time_that_went_by(waits: list[int]) -> None:
     pacer, now, total = Pacer(7 * MS, 1.0, 0), 0, 0
     for wait in waits:
         now += wait
         due = pacer.due(now)
         assert 0 <= due.periods <= 14
-        total += due.periods + due.given_up
+        total += due.periods + due.dropped
         assert total == now // (7 * MS)
 
 

@@ -83,6 +83,6 @@ def test_stamps_do_not_count_where_there_are_none_or_any_age_will_do() -> None:
 
 def test_silence_is_the_steps_since_the_last_command() -> None:
     source = steering_input()
-    assert source.silence(7) is None
+    assert source.steps_since_command(7) is None
     source.offer(0.1, 7)
-    assert source.silence(12) == 5
+    assert source.steps_since_command(12) == 5

@@ -47,6 +47,14 @@ class Finding:
         Of the level in question, for each requirement; of the easiest where no level is chosen.
     reached : int or None
         Place of the hardest level that it meets.
+
+    Examples
+    --------
+    >>> from yawdamp_ros import load_vehicle
+    >>> from yawdamp_ros.analysis import assess
+    >>> findings = assess(load_vehicle("interlink"))
+    >>> findings[0].measure.name, findings[0].passed
+    ('least_damping_ratio', True)
     """
 
     measure: Measure | VehicleMeasure
@@ -93,6 +101,12 @@ class Outcome:
         Measures that are failed or, where all pass, those that keep it from a harder level.
     unknown : tuple of str
         Measures with a limit that could not be judged.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.analysis import Outcome, Verdict
+    >>> Outcome(Verdict.PASS, reached="level 1", deciding=("tail_swing",), unknown=()).verdict
+    <Verdict.PASS: 'pass'>
     """
 
     verdict: Verdict
@@ -103,7 +117,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Assessment:
-    """One vehicle, judged.
+    """Assessment of one vehicle.
 
     Attributes
     ----------
@@ -111,7 +125,7 @@ class Assessment:
     model : str
     scheme : Scheme
     level : str or None
-        That was asked for.
+        Level that was asked for.
     findings : tuple of Finding
 
     Examples
@@ -282,6 +296,14 @@ def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Fin
 
 def failed(findings: Iterable[Finding]) -> bool:
     """Tell if any limit is failed, or met in one reading of an ambiguous measure only.
+
+    Parameters
+    ----------
+    findings : iterable of Finding
+
+    Returns
+    -------
+    bool
 
     Examples
     --------

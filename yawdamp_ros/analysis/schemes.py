@@ -137,7 +137,11 @@ class Scheme:
 
 
 def builtin_schemes() -> tuple[str, ...]:
-    """Names of the schemes that come with the package.
+    """Return the names of the schemes that come with the package.
+
+    Returns
+    -------
+    tuple of str
 
     Examples
     --------

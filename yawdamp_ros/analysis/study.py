@@ -34,7 +34,7 @@ _LARGE_CHUNK, _CHUNK, _SOME, _FEW = 25_000, 500, 100, 5
 
 @dataclass(frozen=True)
 class Study:
-    """What is asked of every point; it can be sent to another process or machine as it is.
+    """Question asked at every point; it can be sent to another process or machine.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Study:
 
     @property
     def threads(self) -> bool:
-        """Whether the work is compiled and runs without Python's lock, side by side in threads."""
+        """True if the work is compiled and runs without Python's lock, side by side in threads."""
         return self.model == NONLINEAR
 
     def check(self, points: Points) -> None:

@@ -101,7 +101,7 @@ def _report(simulator: "Simulator", dropped: int) -> None:
     print_events(simulator.run.events, simulator.grid)
     if dropped:
         lost = simulator.grid.seconds(dropped)
-        print(f"late: {dropped} steps given up, {lost:g} s behind the steady clock")
+        print(f"late: {dropped} steps dropped, {lost:g} s behind the steady clock")
     if simulator.run.stopped:
         print(f"stopped at {simulator.run.time:g} s: {simulator.run.stopped.reason}")
     if simulator.recorder.directory is not None:

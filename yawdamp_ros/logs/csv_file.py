@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from typing import TextIO
 
 LONGEST_LINE = 1 << 20
-"""Characters; a longer line is none of a log."""
+"""Maximum line length in characters."""
 
 
 @contextmanager

@@ -89,10 +89,10 @@ class Server:
         clock = ros_time(now)
         due = self._pacer.due(now)
         self._worst_lateness = max(self._worst_lateness, due.lateness / SECOND)
-        if due.given_up:
-            self.steps_dropped += due.given_up * self._simulator.grid.steps_per_sample
+        if due.dropped:
+            self.steps_dropped += due.dropped * self._simulator.grid.steps_per_sample
             self._node.get_logger().warning(
-                f"late by more than can be made up for: {self.steps_dropped} steps given up so far",
+                f"late by more than can be caught up: {self.steps_dropped} steps dropped so far",
                 throttle_duration_sec=WARNING_PERIOD,
                 throttle_time_source_type=STEADY,
             )
@@ -227,7 +227,7 @@ class Server:
         simulator = self._simulator
         settings, motion, commands = simulator.settings, simulator.motion, simulator.commands
         steering, recorder = commands.steering_input, simulator.recorder
-        silence = steering.silence(motion.step)
+        silence = steering.steps_since_command(motion.step)
         return Readings(
             samples=simulator.run.samples,
             rate_wanted=settings.publish_rate * settings.real_time_factor,
@@ -242,7 +242,9 @@ class Server:
             inputs={
                 name: InputReading(
                     held.value,
-                    None if (since := held.silence(motion.step)) is None else simulator.grid.seconds(since),
+                    None
+                    if (since := held.steps_since_command(motion.step)) is None
+                    else simulator.grid.seconds(since),
                     dict(held.counts),
                 )
                 for name, held in commands.held.items()

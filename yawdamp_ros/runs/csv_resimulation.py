@@ -19,7 +19,7 @@ builds of NumPy and BLAS kernels 1,000 random stable vehicles of up to 12 units 
 QUANTITIES = ("yaw", "yaw_rate", "lateral_acceleration", "articulation")
 
 
-class Parting(NamedTuple):
+class Mismatch(NamedTuple):
     """First mismatch between a response and its repetition.
 
     Attributes
@@ -68,7 +68,7 @@ def repeat(response: Response, model: LinearModel) -> Response:
     return respond(model, response.steering_angle, grid)
 
 
-def first_parting(recorded: Response, repeated: Response, tolerance: float) -> Parting | None:
+def first_mismatch(recorded: Response, repeated: Response, tolerance: float) -> Mismatch | None:
     """First value that differs by more than a tolerance, relative to the largest of its quantity.
 
     Parameters
@@ -80,7 +80,7 @@ def first_parting(recorded: Response, repeated: Response, tolerance: float) -> P
 
     Returns
     -------
-    Parting or None
+    Mismatch or None
     """
     found = []
     for quantity in QUANTITIES:
@@ -88,7 +88,7 @@ def first_parting(recorded: Response, repeated: Response, tolerance: float) -> P
         allowed = tolerance * np.abs(one).max(initial=0.0)
         for row, column in np.argwhere(~(np.abs(one - other) <= allowed))[:1]:
             found.append(
-                Parting(
+                Mismatch(
                     float(recorded.time[row]),
                     quantity,
                     int(column),

@@ -7,11 +7,11 @@ from pathlib import Path
 from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.errors import YawdampError
 from yawdamp_ros.logs import LogError
-from yawdamp_ros.runs.csv_resimulation import QUANTITIES, TOLERANCE, first_parting, repeat
+from yawdamp_ros.runs.csv_resimulation import QUANTITIES, TOLERANCE, first_mismatch, repeat
 from yawdamp_ros.runs.response_reader import read_response_csv
 
 CLOSE = f"{TOLERANCE:.0e} of the motion".replace("e-0", "e-")
-"""What is promised where bit-identity is not."""
+"""Promise where bit-identity is not promised."""
 
 
 @dataclass(frozen=True)
@@ -106,21 +106,21 @@ def repeat_csv(path: Path, model: LinearModel) -> Answer:
         repeated = repeat(recorded, model)
     except YawdampError as error:
         raise LogError(path, str(error)) from error
-    parting = first_parting(recorded, repeated, TOLERANCE)
+    mismatch = first_mismatch(recorded, repeated, TOLERANCE)
     return Answer(
-        agrees=parting is None,
-        bit_identical=first_parting(recorded, repeated, 0.0) is None,
+        agrees=mismatch is None,
+        bit_identical=first_mismatch(recorded, repeated, 0.0) is None,
         promise=CLOSE,
-        reason="a CSV file does not say where it was made",
+        reason="a CSV file does not record its build",
         duration=float(recorded.time[-1]),
         samples=len(recorded.time),
         values=sum(getattr(recorded, quantity).size for quantity in QUANTITIES),
-        difference=parting
+        difference=mismatch
         and Difference(
-            f"column {parting.column + 1}",
-            parting.quantity,
-            parting.time,
-            repr(parting.recorded),
-            repr(parting.repeated),
+            f"column {mismatch.column + 1}",
+            mismatch.quantity,
+            mismatch.time,
+            repr(mismatch.recorded),
+            repr(mismatch.repeated),
         ),
     )

@@ -132,9 +132,9 @@ class Commands:
     def commanded(self) -> bool:
         """True if a command has been accepted."""
         step = self._motion.step
-        if self.steering_input.silence(step) is not None:
+        if self.steering_input.steps_since_command(step) is not None:
             return True
-        return any(held.silence(step) is not None for held in self.held.values())
+        return any(held.steps_since_command(step) is not None for held in self.held.values())
 
     def reset(self) -> None:
         """Return to rest at the origin at the next step."""

@@ -53,7 +53,7 @@ def _parameter(  # noqa: PLR0913 - each is one property of a parameter
 
 
 def _setting(name: str, description: str, constraint: str) -> Any:  # noqa: ANN401 - as above
-    """A number of the manoeuvre's; NaN where it was not given, which no range can hold."""
+    """Declare a number of a manoeuvre; NaN where it was not given, which no range can hold."""
     return _parameter(
         UNSET,
         f"{description}; NaN: the manoeuvre's default",
@@ -89,7 +89,7 @@ class SimParameters:
     )
     longitudinal_source: str = _parameter(
         "parameter",
-        "what drives: the parameter speed, or the topic speed or acceleration from its first message on",
+        "source of the speed: the parameter, or the topic speed or acceleration from its first message on",
         choices=("parameter", "speed", "acceleration"),
         dynamic=True,
     )
@@ -104,7 +104,7 @@ class SimParameters:
         [0.0, 0.0, 0.0], "x and y in m and yaw in rad of the lead unit at the start, and after a reset"
     )
     initial_articulation: list[float] = _parameter(
-        [0.0], "of every joint at the start in rad; one 0: straight; nonlinear model"
+        [0.0], "articulation of every joint at the start in rad; one 0: straight; nonlinear model"
     )
     start_paused: bool = _parameter(
         default=False, description="time stands until ~/pause or ~/step is called"
@@ -129,38 +129,38 @@ class SimParameters:
         1.0, "steering command over road-wheel angle; 1: road-wheel commands", limits=(1e-3, 1e3)
     )
     max_steering_angle: float = _parameter(
-        0.8, "road-wheel angle in rad past which a command is clamped", limits=(0.0, 1.5), dynamic=True
+        0.8, "road-wheel angle in rad beyond which a command is clamped", limits=(0.0, 1.5), dynamic=True
     )
     max_steering_age: float = _parameter(
         0.5,
-        "farthest in s that a command's stamp may be from now, past or future; 0: any",
+        "largest difference in s between a command's stamp and now; 0: any",
         limits=(0.0, 1e6),
         dynamic=True,
     )
     steering_timeout: float = _parameter(
         0.5,
-        "silence in s of simulated time after which on_steering_timeout counts",
+        "simulated time in s without a command after which on_steering_timeout acts",
         limits=(0.0, 1e6),
         dynamic=True,
     )
     on_steering_timeout: str = _parameter(
-        "hold", "after a silence: hold the last command, or zero", choices=("hold", "zero"), dynamic=True
+        "hold", "after a timeout: hold the last command, or zero", choices=("hold", "zero"), dynamic=True
     )
     steering_time_constant: float = _parameter(
         0.0, "first-order lag of the road wheels in s; 0: none", limits=(0.0, 10.0)
     )
     steering_rate_limit: float = _parameter(
-        0.0, "fastest turn of the road wheels in rad/s; 0: any", limits=(0.0, 100.0)
+        0.0, "largest rate of the road-wheel angle in rad/s; 0: any", limits=(0.0, 100.0)
     )
     manoeuvre: str = _parameter(
         "none",
-        "steering of the node's own, in place of the topic",
+        "manoeuvre by which the node steers, in place of the topic",
         choices=("none", *MANOEUVRES),
         name="manoeuvre.name",
     )
     amplitude: float = _setting("amplitude", "road-wheel steer angle of the manoeuvre in rad", _ANGLE)
     frequency: float = _setting(
-        "frequency", "of sine and lane change, and at the chirp's start, in Hz", _POSITIVE
+        "frequency", "frequency of sine and lane change, and of the chirp's start, in Hz", _POSITIVE
     )
     start: float = _setting("start", "simulated time at which the manoeuvre begins, in s", _NOT_NEGATIVE)
     cycles: float = _setting(
@@ -168,26 +168,31 @@ class SimParameters:
     )
     rise_time: float = _setting("rise_time", "duration of the ramp in s", _POSITIVE)
     width: float = _setting("width", "duration of the pulse in s", _POSITIVE)
-    final_frequency: float = _setting("final_frequency", "at the chirp's end, in Hz", _POSITIVE)
+    final_frequency: float = _setting(
+        "final_frequency", "frequency of the chirp at its end, in Hz", _POSITIVE
+    )
     sweep_time: float = _setting("sweep_time", "duration of the chirp in s", _POSITIVE)
     max_lateral_acceleration: float = _parameter(
         100.0,
-        "in m/s^2 of any unit, past which the model means nothing and the run is stopped",
+        "lateral acceleration of any unit in m/s^2 beyond which the run is stopped",
         limits=(1.0, 1e6),
         dynamic=True,
     )
     max_articulation: float = _parameter(
-        3.14, "in rad of any joint, past which the run is stopped, too", limits=(0.1, 1e3), dynamic=True
+        3.14,
+        "articulation of any joint in rad beyond which the run is stopped",
+        limits=(0.1, 1e3),
+        dynamic=True,
     )
     warn_lateral_acceleration: float = _parameter(
         LINEAR_LATERAL_ACCELERATION,
-        "in m/s^2 of any unit, past which a truck no longer does what the linear model does; the run goes on",
+        "lateral acceleration of any unit in m/s^2 beyond which the run leaves the linear range; it goes on",
         limits=(0.1, 1e6),
         dynamic=True,
     )
     warn_articulation: float = _parameter(
         LINEAR_ARTICULATION,
-        "in rad of any joint, past which as well",
+        "articulation of any joint in rad beyond which the run leaves the linear range; it goes on",
         limits=(0.01, 1e3),
         dynamic=True,
     )
@@ -209,24 +214,31 @@ class SimParameters:
         description="record the frames of the units, and publish them where tf2_msgs is installed",
     )
     publish_tf_hitches: bool = _parameter(
-        default=True, description="also those behind the lead unit; false beside a robot_state_publisher"
+        default=True,
+        description="also those behind the lead unit; false beside a robot_state_publisher",
     )
     frame_prefix: str = _parameter(
         "",
-        "put before the names of all frames, such as left/, so that nodes side by side do not meet on /tf",
+        "prefix of the names of all frames, such as left/, which keeps nodes side by side apart on /tf",
         otherwise="the node's namespace",
     )
-    yaw_stddev: float = _parameter(0.0, "of the noise on imu's yaw, rad", limits=(0.0, 1.0))
-    yaw_rate_stddev: float = _parameter(0.0, "of the noise on imu's yaw rate, rad/s", limits=(0.0, 1.0))
-    lateral_acceleration_stddev: float = _parameter(
-        0.0, "of the noise on imu's lateral acceleration, m/s^2", limits=(0.0, 10.0)
+    yaw_stddev: float = _parameter(
+        0.0, "standard deviation of the noise on imu's yaw in rad", limits=(0.0, 1.0)
     )
-    noise_seed: int = _parameter(0, "of the noise: the same seed gives the same noise", limits=(0, 2**31 - 1))
+    yaw_rate_stddev: float = _parameter(
+        0.0, "standard deviation of the noise on imu's yaw rate in rad/s", limits=(0.0, 1.0)
+    )
+    lateral_acceleration_stddev: float = _parameter(
+        0.0, "standard deviation of the noise on imu's lateral acceleration in m/s^2", limits=(0.0, 10.0)
+    )
+    noise_seed: int = _parameter(
+        0, "seed of the noise: the same seed gives the same noise", limits=(0, 2**31 - 1)
+    )
     record: bool = _parameter(default=True, description="record the run from its start")
     record_directory: str = _parameter(
         "",
-        "directory of the run, which must not exist; empty: runs/<stamp>_<vehicle>; set while running, it is "
-        "below the working directory and of the next ~/record",
+        "directory of the run, which must not exist; empty: runs/<stamp>_<vehicle>; a change applies to the "
+        "next ~/record and must be a path below the working directory",
         dynamic=True,
     )
 

@@ -73,7 +73,7 @@ class HeldInput:
         self.counts[verdict] += 1
         return verdict
 
-    def silence(self, step: int) -> int | None:
+    def steps_since_command(self, step: int) -> int | None:
         """Steps since the last value; None before the first."""
         return None if self._received_at is None else step - self._received_at
 

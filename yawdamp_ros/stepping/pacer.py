@@ -15,14 +15,14 @@ class Due(NamedTuple):
     ----------
     periods : int
         Sample periods to simulate now.
-    given_up : int
+    dropped : int
         Periods that are too late to be made up for.
     lateness : float
         How far simulated time was behind, beyond the period that had just passed, in ns of the clock.
     """
 
     periods: int
-    given_up: int
+    dropped: int
     lateness: float
 
 
@@ -87,9 +87,9 @@ class Pacer:
         self._bank(now)
         periods = int(self._ahead // self._period_ns)
         self._ahead -= periods * self._period_ns
-        given_up = max(periods - self._most(), 0)
+        dropped = max(periods - self._most(), 0)
         late = (max(periods - 1, 0) * self._period_ns + self._ahead) / self._rate if periods else 0.0
-        return Due(periods - given_up, given_up, late)
+        return Due(periods - dropped, dropped, late)
 
     def _most(self) -> int:
         return max(int(CATCH_UP_NS * max(self._rate, 1.0)) // self._period_ns, LEAST_CATCH_UP)

@@ -78,13 +78,13 @@ class Propagation:
         return self._after[self._taken, :-1].copy()
 
     @property
-    def turned(self) -> float:
+    def yaw_since_block_start(self) -> float:
         """Yaw of the lead unit since the start of the block [rad]."""
         return float(self._after[self._taken, -1])
 
     def start_block(self) -> float:
         """Let the steps to come be computed from this instant; return what was turned in the block."""
-        turned = self.turned
+        turned = self.yaw_since_block_start
         self.stand(self._after[self._taken, :-1])
         return turned
 

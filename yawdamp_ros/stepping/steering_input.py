@@ -90,13 +90,13 @@ class SteeringInput:
         """Road-wheel angle in rad within the limit of now."""
         return min(max(angle, -self.limit), self.limit)
 
-    def silence(self, step: int) -> int | None:
+    def steps_since_command(self, step: int) -> int | None:
         """Steps since the last command; None before the first."""
         return None if self._received_at is None else step - self._received_at
 
     def timed_out(self, step: int) -> bool:
         """True if commands have come and none has for longer than the timeout."""
-        silence = self.silence(step)
+        silence = self.steps_since_command(step)
         return silence is not None and silence > self.timeout_steps
 
     def _judge(self, command: float, age: float | None) -> tuple[Verdict, float]:

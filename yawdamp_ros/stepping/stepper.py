@@ -238,7 +238,7 @@ class Stepper:
         return self._sample_of(step, angle, self._now())
 
     def _now(self) -> _Instants:
-        states = np.append(self.state, self._motion.turned)
+        states = np.append(self.state, self._motion.yaw_since_block_start)
         return _Instants(states, np.array(self._yaw.parts), np.asarray(self._position))
 
     def _advance(self, angles: FloatArray) -> tuple[FloatArray, list[tuple[int, YawParts]], ComplexArray]:
@@ -323,7 +323,7 @@ class Stepper:
 
     def _set_ground_velocity(self) -> None:
         # The bits of `_ground_velocity`, of one.
-        heading = complex(np.exp(complex(0.0, self._motion.turned + self._yaw.direction)))
+        heading = complex(np.exp(complex(0.0, self._motion.yaw_since_block_start + self._yaw.direction)))
         sideways = float(self._motion.state[0])
         self._velocity = complex(
             heading.real * self.speed - sideways * heading.imag,
