@@ -4,7 +4,7 @@ import math
 import sys
 from pathlib import Path
 
-from yawdamp_ros.runs.outputs import OUTPUTS, Of
+from yawdamp_ros.runs.outputs import OUTPUTS, Of, available
 from yawdamp_ros.simulation import make_motion
 from yawdamp_ros.simulation.inputs import INPUTS
 from yawdamp_ros.simulation.settings import PARAMETERS, SimParameters
@@ -16,7 +16,8 @@ HEAD = "| parameter | default | |\n|---|---|---|\n"
 INPUT_HEAD = "| topic | type | meaning |\n|---|---|---|\n"
 OUTPUT_HEAD = "| topic | type | meaning |\n|---|---|---|\n"
 OTHER_TOPICS = """\
-| `/diagnostics` | diagnostic_msgs/DiagnosticArray | once a second: timing, steering, recorder, model |
+| `/diagnostics` | diagnostic_msgs/DiagnosticArray | once a second: timing, inputs, recorder, model, events |
+| `events` | diagnostic_msgs/DiagnosticStatus | what happens to the vehicle: name and where; nonlinear model |
 | `/clock` | rosgraph_msgs/Clock | simulated time, if `real_time_factor` is not 1 or `publish_clock` is true |
 | `markers` | visualization_msgs/MarkerArray | the units as boxes, if `publish_markers` is true |
 | `/tf` | tf2_msgs/TFMessage | `odom`, the units and their hitches, if tf2_msgs is installed |
@@ -51,6 +52,7 @@ def output_table() -> str:
         if output.type_name:
             names = {Of.RUN: "{}", Of.UNIT: "<unit>/{}", Of.JOINT: "{}_<joint>"}
             described = ", ".join(filter(None, [output.description, output.unit.replace("^2", "²")]))
+            described += "" if output in available(()) else "; nonlinear model"
             kind = output.type_name.replace("/msg/", "/")
             rows.append(f"| `{names[output.of].format(output.name)}` | {kind} | {described} |\n")
     return OUTPUT_HEAD + "".join(rows) + OTHER_TOPICS

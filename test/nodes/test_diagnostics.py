@@ -55,6 +55,7 @@ def test_good_order_is_ok_in_every_part() -> None:
         "inputs": (b"\0", "no_command"),
         "recorder": (b"\0", "recording"),
         "model": (b"\0", "stable"),
+        "events": (b"\0", "nothing"),
     }
     assert values(statuses["timing"])["achieved_rate"] == "100.00 Hz"
     assert values(statuses["timing"])["worst_lateness"] == "1.500 ms"
@@ -65,6 +66,16 @@ def test_good_order_is_ok_in_every_part() -> None:
 def test_every_count_is_told_under_the_key_of_its_verdict() -> None:
     steering = values(looks(IN_ORDER)["steering"])
     assert (steering["accepted"], steering["clamped"], steering["rejected_stale"]) == ("5", "0", "0")
+
+
+def test_an_event_warns_once_and_stays_told() -> None:
+    lifted = with_changes(events=("wheel_lift of trailer_2, axle 1, left at 3.2 s",))
+    events = looks(IN_ORDER, lifted)["events"]
+    assert told(events) == (b"\1", "happened")
+    assert events.message == "wheel_lift of trailer_2, axle 1, left at 3.2 s"
+    later = looks(IN_ORDER, lifted, lifted)["events"]
+    assert told(later) == (b"\0", "nothing")
+    assert (values(later)["count"], values(later)["last"]) == ("1", lifted.events[0])
 
 
 def test_dropped_steps_warn_at_the_look_that_sees_them_and_not_at_the_next() -> None:

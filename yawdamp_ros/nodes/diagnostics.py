@@ -9,6 +9,7 @@ from yawdamp_ros.nodes.neighbours import Neighbourhood
 from yawdamp_ros.nodes.states import (
     RECORDER_SENTENCES,
     VERDICT_SENTENCES,
+    EventState,
     InputState,
     ModelState,
     RecorderState,
@@ -77,6 +78,8 @@ class Readings(NamedTuple):
         In m/s.
     callback_failures : int
         Errors that callbacks of the node ended in.
+    events : tuple of str
+        What happened to the vehicle so far, each with its simulated time.
     """
 
     samples: int
@@ -98,6 +101,7 @@ class Readings(NamedTuple):
     beyond: str
     speed: float
     callback_failures: int = 0
+    events: tuple[str, ...] = ()
 
 
 class Diagnosis:
@@ -135,7 +139,13 @@ class Diagnosis:
         DiagnosticArray
         """
         before = self._before or readings._replace(
-            samples=0, commands={}, inputs={}, messages_lost=0, steps_dropped=0, callback_failures=0
+            samples=0,
+            commands={},
+            inputs={},
+            messages_lost=0,
+            steps_dropped=0,
+            callback_failures=0,
+            events=(),
         )
         self._before = readings
         array = DiagnosticArray()
@@ -146,6 +156,7 @@ class Diagnosis:
             self._inputs(readings, before),
             self._recorder(readings, before),
             self._model(readings),
+            self._events(readings, before),
         ]
         return array
 
@@ -237,6 +248,17 @@ class Diagnosis:
             state=state,
             least_damping_ratio=f"{now.least_damping_ratio:.4f}",
             speed=f"{now.speed:.6g} m/s",
+        )
+
+    def _events(self, now: Readings, before: Readings) -> DiagnosticStatus:
+        new = now.events[len(before.events) :]
+        return self._status(
+            "events",
+            WARN if new else OK,
+            "; ".join(new) or "nothing since the last look",
+            state=EventState.HAPPENED if new else EventState.NOTHING,
+            count=str(len(now.events)),
+            last=now.events[-1] if now.events else "",
         )
 
     def _status(self, part: str, level: bytes, message: str, **values: str) -> DiagnosticStatus:

@@ -14,6 +14,7 @@ from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.scene import markers
 from yawdamp_ros.runs.encoder import Encoded, Encoder, message_class
+from yawdamp_ros.runs.recipe import EVENT_TYPE, EVENTS, event_message
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.vehicle import Vehicle
@@ -31,6 +32,8 @@ class Topics:
     encoder : Encoder
         Whose messages they publish.
     settings : SimParameters
+    events : bool
+        Whether the model knows of any.
 
     Attributes
     ----------
@@ -40,7 +43,9 @@ class Topics:
         Why there are no frames on ``/tf``; empty if there are.
     """
 
-    def __init__(self, node: Node, vehicle: Vehicle, encoder: Encoder, settings: SimParameters) -> None:
+    def __init__(
+        self, node: Node, vehicle: Vehicle, encoder: Encoder, settings: SimParameters, *, events: bool
+    ) -> None:
         self._node = node
         self._vehicle = vehicle
         self._frame_prefix = settings.frame_prefix
@@ -55,6 +60,9 @@ class Topics:
                 message = f"topic {topic}: {count} outputs are remapped to it; expected one each"
                 raise NodeError(message)
         self._newest: Encoded | None = None
+        self._events: Any = None
+        if events:
+            self._events = node.create_publisher(message_class(EVENT_TYPE), EVENTS, QUEUE_DEPTH)
         self._clock: Any = None
         if settings.clock:
             self.publish_clock()
@@ -79,6 +87,8 @@ class Topics:
     def write(self, encoded: Encoded) -> None:
         """Publish a sample of one instant."""
         self._newest = encoded
+        for event in encoded.sample.events:
+            self.tell(event_message(event))
         [stamp], [messages] = encoded.stamps, encoded.messages
         if self._clock is not None:
             self._clock.publish(Clock(clock=Time(nanoseconds=stamp).to_msg()))
@@ -92,6 +102,11 @@ class Topics:
             self._tf_static = None  # once is for good: the publisher is the node's
         if self._markers is not None:
             self._markers.publish(markers(*scene))
+
+    def tell(self, event: Any) -> None:  # noqa: ANN401 - a generated message
+        """Publish an event."""
+        if self._events is not None:
+            self._events.publish(event)
 
     def repeat(self) -> None:
         """Publish the newest sample once more, for those who came after it."""

@@ -257,6 +257,10 @@ class Server:
             beyond="" if (beyond := simulator.range.look()) is None else beyond.reason,
             speed=motion.speed,
             callback_failures=self._guard.failures,
+            events=tuple(
+                f"{event.name} of {event.where} at {simulator.grid.seconds(event.step):g} s"
+                for event in simulator.run.events
+            ),
         )
 
 

@@ -32,6 +32,13 @@ class InputState(StrEnum):
     COMMANDED = "commanded"
 
 
+class EventState(StrEnum):
+    """Whether something happened to the vehicle since the last look."""
+
+    NOTHING = "nothing"
+    HAPPENED = "happened"
+
+
 class RecorderState(StrEnum):
     """State of the recording."""
 

@@ -50,6 +50,8 @@ class Panel(NamedTuple):
         Whether a value holds until the next.
     linear_up_to : float or None
         Magnitude past which a truck leaves the linear range; beyond, the panel is shaded.
+    marks : tuple of (float, str)
+        Instants to be marked [s], each with what happened.
     """
 
     x_label: str
@@ -58,6 +60,16 @@ class Panel(NamedTuple):
     curves: list[Curve]
     held: bool = False
     linear_up_to: float | None = None
+    marks: tuple[tuple[float, str], ...] = ()
+
+
+def marks_of(responses: Sequence[Response]) -> tuple[tuple[float, str], ...]:
+    """Time [s] and name of every kind of event, of each unit the first."""
+    found: dict[tuple[int, str, str], float] = {}
+    for run, response in enumerate(responses):
+        for event, time in zip(response.events, response.event_times, strict=True):
+            found.setdefault((run, event.name, event.where.partition(",")[0]), time)
+    return tuple((time, f"{name.replace('_', ' ')} of {where}") for (_, name, where), time in found.items())
 
 
 def bands(panel: Panel) -> list[tuple[float, float]]:
@@ -114,6 +126,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
         for unit, x, y in zip(response.unit_names, response.x.T, response.y.T, strict=True)
         if np.isfinite(x).all() and np.isfinite(y).all()
     ]
+    marks = marks_of(responses)
     panels = [
         Panel(
             "time, s",
@@ -122,6 +135,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
             curves(output),
             output.held,
             LINEAR_UP_TO.get(output.name),
+            marks,
         )
         for output in outputs.OUTPUTS
         if output.unit

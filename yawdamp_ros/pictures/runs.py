@@ -1,6 +1,7 @@
 """The curves of one run, or of several compared, as a figure."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -11,6 +12,16 @@ from yawdamp_ros.stepping import Response
 
 SHADE = "#f3e3dc"
 """Beyond the linear range."""
+MARK = "#a02020"
+"""Of what happened to the vehicle."""
+NOTE: dict[str, Any] = {
+    "rotation": 90,
+    "fontsize": 6,
+    "color": MARK,
+    "ha": "right",
+    "va": "top",
+    "parse_math": False,
+}
 DASHES = ((0.0, ()), (0.0, (5, 2)), (0.0, (1, 1.5)), (0.0, (6, 2, 1, 2)), (0.0, (10, 3)), (0.0, (1, 4)))
 """One a run, in points drawn and left blank."""
 
@@ -48,6 +59,10 @@ def runs_figure(runs: Sequence[tuple[str, Response]]) -> Figure:
             )
         for low, high in bands(panel):
             axes.axhspan(low, high, color=SHADE, linewidth=0.0, zorder=0.0)
+        for time, what in panel.marks:
+            axes.axvline(time, color=MARK, linewidth=0.8, linestyle=":")
+            if number == 1:
+                axes.annotate(what, (time, 0.98), xycoords=("data", "axes fraction"), **NOTE)
         style(axes, panel.x_label, panel.y_label, panel.title)
     _add_legend(figure, [name for name, _ in runs], panels)
     return figure

@@ -129,11 +129,11 @@ OUTPUTS: tuple[Output, ...] = (
     scalar("yaw", Of.UNIT, "yaw", "rad"),
     scalar("yaw_rate", Of.UNIT, "yaw rate", "rad/s"),
     scalar("lateral_acceleration", Of.UNIT, "lateral acceleration", "m/s^2"),
-    scalar("roll", Of.UNIT, "roll, to the right; nonlinear model", "rad"),
+    scalar("roll", Of.UNIT, "roll, to the right", "rad"),
     scalar(
         "load_transfer_ratio",
         Of.UNIT,
-        "right wheel loads less left ones, over both; nonlinear model",
+        "load transfer to the right",
         "1",
     ),
     Output("articulation", Of.JOINT, "articulation", "rad"),

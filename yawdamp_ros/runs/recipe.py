@@ -18,7 +18,7 @@ from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.runs.run_writer import Channel, RunWriter, SerialisedMessage
 from yawdamp_ros.runs.templates import ENCAPSULATION
 from yawdamp_ros.simulation import SimParameters
-from yawdamp_ros.stepping import AppliedInput, Command, Motion, TimeGrid
+from yawdamp_ros.stepping import AppliedInput, Command, Event, Motion, TimeGrid
 from yawdamp_ros.stepping.build import build_of_numerics
 from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.vehicle import VehicleSource
@@ -26,6 +26,9 @@ from yawdamp_ros.version import VERSION
 
 FRAME_CHANNELS = {"tf": Channel("/tf", TF_TYPE), "tf_static": Channel("/tf_static", TF_TYPE, latched=True)}
 """Frames are of the whole graph: these names are not resolved."""
+EVENTS = "events"
+"""Topic of what happens to the vehicle."""
+EVENT_TYPE = "diagnostic_msgs/msg/DiagnosticStatus"
 COMMAND = "steering"
 """Topic of the steering commands as received; that of the road wheels is `applied_topic`."""
 
@@ -74,6 +77,8 @@ class Recipe:
             name: Channel(resolve(applied_topic(name)), input_type(name)) for name in motion.input_names
         }
         self._frames = frames
+        # Models that have the linear quantities alone know no events.
+        self._events = {EVENTS: Channel(resolve(EVENTS), EVENT_TYPE)} if motion.quantity_names else {}
         self._jumps = Channel(resolve(JUMP), INT64)
         self._commands = (
             {COMMAND: Channel(resolve(COMMAND), settings.steering_type)}
@@ -92,6 +97,7 @@ class Recipe:
         channels = (
             {JUMP: self._jumps}
             | self._commands
+            | self._events
             | {applied_topic(name): self._inputs[name] for name in self._inputs}
         )
         metadata = {METADATA_NAME: self._metadata(settings)}
@@ -166,6 +172,8 @@ def recorded_messages(encoded: Encoded) -> list[SerialisedMessage]:
         found += ((name, stamp, data) for name, data in zip(encoded.names, messages, strict=True))
         if encoded.frames:
             found.append(("tf", stamp, encoded.frames[index]))
+    if pending is not None:  # an event that ended the run before its next sample
+        found += [pending, *before]
     return found
 
 
@@ -175,16 +183,38 @@ def _before(encoded: Encoded) -> Iterator[SerialisedMessage]:
     if encoded.jump is not None:
         jumped = message_class(INT64)(data=encoded.jump.nanoseconds)
         yield JUMP, encoded.stamp(encoded.jump.step), serialize_message(jumped)
-    happened: list[Command | AppliedInput] = [*sample.commands, *sample.inputs]
-    if sample.commands:
+    happened: list[Command | AppliedInput | Event] = [*sample.commands, *sample.inputs, *sample.events]
+    if sample.commands or sample.events:
         happened.sort(key=lambda each: each.step)
     for each in happened:
         stamp = encoded.stamp(each.step)
         if isinstance(each, Command):
             message = each.message or message_class(FLOAT64)(data=each.angle)
             yield COMMAND, stamp, _without_tail(message, serialize_message(message))
+        elif isinstance(each, Event):
+            yield EVENTS, stamp, serialize_message(event_message(each))
         else:
             yield applied_topic(each.name), stamp, serialised_input(each)
+
+
+def event_message(event: Event) -> Any:  # noqa: ANN401 - a generated message
+    """Message of an event: its name, where, and an error where the motion ends with it.
+
+    Parameters
+    ----------
+    event : Event
+
+    Returns
+    -------
+    diagnostic_msgs.msg.DiagnosticStatus
+
+    Examples
+    --------
+    >>> event_message(Event(10, "wheel_lift", "trailer, axle 1, left")).name
+    'wheel_lift'
+    """
+    kind = message_class(EVENT_TYPE)
+    return kind(level=kind.ERROR if event.final else kind.WARN, name=event.name, message=event.where)
 
 
 def _without_tail(message: Any, data: bytes) -> bytes:  # noqa: ANN401 - a generated message

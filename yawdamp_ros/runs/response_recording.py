@@ -15,9 +15,15 @@ from yawdamp_ros.runs import outputs
 from yawdamp_ros.runs.jumps import JUMP, jump_of
 from yawdamp_ros.runs.outputs import FLOAT64
 from yawdamp_ros.runs.response_reader import LARGEST_VALUE
-from yawdamp_ros.stepping import Response
+from yawdamp_ros.stepping import Event, Response
 from yawdamp_ros.stepping.time_grid import SECOND
 
+EVENTS = "events"
+"""Topic of what happens to the vehicle."""
+ERROR = 2
+"""Level of an event with which the motion ends."""
+RUN = "yawdamp_ros"
+"""Metadata that explain a run."""
 OF_UNITS = ("imu", "odom")
 """Topics of every unit that hold its motion."""
 
@@ -56,6 +62,7 @@ def read_response_recording(path: Path) -> Response:
     scalars: dict[str, list[Any]] = defaultdict(list)
     units: dict[str, None] = {}
     stamps: list[int] = []
+    events: list[tuple[int, Any]] = []
     jumped = 0
     log = McapLog(path)
     for message in log.messages():
@@ -66,6 +73,8 @@ def read_response_recording(path: Path) -> Response:
             messages[name].append(decode(message))
         elif message.type_name == FLOAT64 and name not in Response.__dataclass_fields__:
             scalars[message.topic].append(decode(message))
+        elif name == EVENTS:
+            events.append((message.log_time - jumped, decode(message)))
         elif name == JUMP:
             jumped += jump_of(message.data)
         elif name in OF_UNITS:
@@ -80,7 +89,13 @@ def read_response_recording(path: Path) -> Response:
         raise LogError(path, f"no run: expected joint_states, and imu and odom of every unit{why}")
     try:
         response = _response(messages, tuple(units), stamps)
-        return replace(response, extra=_extra(scalars, response))
+        happened = _events(events, log.metadata.get(RUN, {}))
+        return replace(
+            response,
+            extra=_extra(scalars, response),
+            events=happened,
+            event_times=tuple((stamp - stamps[0]) / SECOND for stamp, _ in events),
+        )
     except (AttributeError, TypeError, ValueError, IndexError, OverflowError) as error:
         raise LogError(path, f"no run: its messages hold something else: {error}") from error
 
@@ -110,6 +125,14 @@ def _response(messages: Mapping[str, list[Any]], units: tuple[str, ...], stamps:
         articulation=joints[:, 1:],
         x=gather(lambda unit, index: position(unit, index).x),
         y=gather(lambda unit, index: position(unit, index).y),
+    )
+
+
+def _events(messages: list[tuple[int, Any]], known: Mapping[str, str]) -> tuple[Event, ...]:
+    step, origin = int(known.get("step_ns", "1")), int(known.get("start_time_ns", "0"))
+    return tuple(
+        Event((stamp - origin) // step, each.name, each.message, final=each.level == ERROR)
+        for stamp, each in messages
     )
 
 

@@ -66,6 +66,8 @@ class Run:
         Why it was stopped; nothing is handed on any more.
     events : list of Event
         What happened so far, in order of time.
+    unwritten : tuple of Event
+        Those of them that ended the run before its next sample, which no sink was told of.
 
     Examples
     --------
@@ -97,6 +99,7 @@ class Run:
         self.samples = 0
         self.stopped: Stop | None = None
         self.events: list[Event] = []
+        self.unwritten: tuple[Event, ...] = ()
         self._source = source
         self._sinks = tuple(sinks)
 
@@ -163,6 +166,7 @@ class Run:
             # What follows a final event is no number, and not the reason.
             self.stopped = self.stopped or violation
             if not instant:
+                self.unwritten = sample.events
                 return
             sample = sample.before(instant)._replace(events=sample.events)
         self.samples += np.size(sample.step)

@@ -43,6 +43,8 @@ class Response:
         Quantities that not every motion has, as `Sample.extra`.
     events : tuple of Event
         What happened, in order of time; where the last is final, the run ends there.
+    event_times : tuple of float
+        Of the events [s].
 
     Examples
     --------
@@ -64,6 +66,7 @@ class Response:
     y: FloatArray
     extra: Mapping[str, FloatArray] = field(default_factory=dict)
     events: tuple[Event, ...] = ()
+    event_times: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, samples: Iterable[Sample], unit_names: Sequence[str], grid: TimeGrid) -> "Response":
@@ -90,6 +93,7 @@ class Response:
                 for name in taken[0].extra
             },
             events=tuple(event for sample in taken for event in sample.events),
+            event_times=tuple(grid.seconds(event.step) for sample in taken for event in sample.events),
         )
 
 
