@@ -12,5 +12,5 @@ def test_the_solution_solves(size: int, columns: int, stack: int, seed: int) -> 
     generator = np.random.default_rng(seed)
     factor = generator.standard_normal((stack, size, size))
     matrix = factor @ factor.swapaxes(1, 2) / size + np.eye(size)
-    right = generator.standard_normal((size, columns))
-    np.testing.assert_allclose(matrix @ solve(matrix, right), np.stack([right] * stack), atol=1e-13)
+    right = generator.standard_normal((stack, size, columns))
+    np.testing.assert_allclose(matrix @ solve(matrix, right), right, atol=1e-13)
