@@ -108,6 +108,7 @@ def test_a_scheme_has_one_verdict_its_limits_and_the_level_that_is_reached(
     rows = {row["measure"]: row for row in found["measures"]}
     assert list(rows) == list(load_scheme("pbs").measures)
     assert rows["low_speed_swept_path"]["limit"] == 8.7
+    assert "units.3.cg_height" in found["assumed"]
     assert rows["rearward_amplification"]["limit"] == pytest.approx(
         5.7 * rows["rear_static_rollover_threshold"]["value"]
     )
@@ -120,6 +121,7 @@ def test_text_of_a_scheme_fits_80_columns_and_begins_with_the_verdict(
     lines = capsys.readouterr().out.splitlines()
     assert lines[1] == "FAILS rtac; decided by load_transfer_ratio, high_speed_transient_offtracking"
     assert "Sources of the limits" in lines
+    assert any(line.startswith("assumed, not given by the file") for line in lines)
     assert max(map(len, lines[:9])) <= 80
 
 

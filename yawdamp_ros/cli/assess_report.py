@@ -7,12 +7,12 @@ import sys
 import textwrap
 from collections.abc import Sequence
 
-from yawdamp_ros.analysis import Assessment, Finding
+from yawdamp_ros.analysis import Assessment, Finding, VehicleMeasure
 from yawdamp_ros.analysis.engineering import SI, converted
 from yawdamp_ros.analysis.schemes import DEFAULT_SCHEME, SIGNS
 from yawdamp_ros.cli.number import number
 from yawdamp_ros.cli.table import print_table
-from yawdamp_ros.vehicle import STANDARD_GRAVITY
+from yawdamp_ros.vehicle import STANDARD_GRAVITY, assumed
 
 VERDICTS = {True: "pass", False: "FAIL", None: "n/a"}
 WIDTH = 80
@@ -31,6 +31,7 @@ def record(assessed: Assessment) -> dict[str, object]:
         "level_reached": assessed.outcome.reached,
         "deciding": assessed.outcome.deciding,
         "unknown": assessed.outcome.unknown,
+        "assumed": [each.key for each in assumed(assessed.vehicle)],
         "measures": [
             finding_record(finding)
             | {
@@ -104,6 +105,7 @@ def print_text(assessed: Assessment, units: str) -> None:
         print(title)
         print(textwrap.fill(assessed.sentence, WIDTH))
         _print_scheme(assessed, units)
+        _print_assumed(assessed)
     _print_notes(assessed.findings)
 
 
@@ -180,6 +182,14 @@ def _print_scheme(assessed: Assessment, units: str) -> None:
         row = [finding.measure.name, _value(finding, units), converted(None, finding.measure.unit, units)[1]]
         rows.append([*row, "; ".join(limits), verdict(finding) if limits else "", reached][: len(columns)])
     print_table(assessed.scheme.title, columns, rows, width=WIDTH)
+
+
+def _print_assumed(assessed: Assessment) -> None:
+    """Name the values that the file does not give, where a measure may use them."""
+    names = dict.fromkeys(each.key.rpartition(".")[2] for each in assumed(assessed.vehicle))
+    if names and any(isinstance(finding.measure, VehicleMeasure) for finding in assessed.findings):
+        said = f"assumed, not given by the file (yawdamp show lists them): {', '.join(names)}"
+        print(textwrap.fill(said, WIDTH))
 
 
 def _print_notes(findings: Sequence[Finding]) -> None:
