@@ -14,7 +14,7 @@ from yawdamp_ros.analysis.study import Study, evaluate_all
 from yawdamp_ros.nonlinear import NonlinearDynamics
 from yawdamp_ros.vehicle import load_vehicle, vehicle_text
 
-VEHICLES = 200
+VEHICLES = 100
 STEPS = 12_000
 """Of a lane change of 12 s at 1 kHz."""
 PRODUCTS = 20_000
@@ -48,7 +48,7 @@ def _lane_changes() -> Row:
             list(evaluate_all(study, points, executor.map))
         return (time.perf_counter() - begin) / VEHICLES
 
-    value, reference = by_turns(fleet, lambda: product_time() * STEPS, 5)
+    value, reference = by_turns(fleet, lambda: product_time() * STEPS, 3)
     cores = min(CORES, os.cpu_count() or 1)
     what = f"a nonlinear lane change of 12 s at 1 kHz, one of {VEHICLES} in threads on {cores} cores"
     against = f"{STEPS:,} matrix-vector products"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define GRAVITY 9.80665
+#define AXLE_STEERING 8
 #define MOST_UNITS 8
 #define MOST_WHEELS 64
 #define MOST_STATES (4 + 5 * MOST_UNITS + 2 * MOST_WHEELS)
@@ -155,8 +156,8 @@ static void wheels(const Vehicle *v, const double *state, const double *input, c
 {
     const long n = v->units, rolls = 4 + 2 * n, slips = 4 + 5 * n, carcasses = slips + 2 * v->axles;
     const Scalars *g = v->scalars;
-    const double *demands = input + 7 + v->axles;
-    double driving = fmax(input[1], 0.0);
+    const double *demands = input + AXLE_STEERING + v->axles;
+    double driving = input[7] * fmax(input[1], 0.0);
     if (!isnan(input[2]))
         driving += clamp(g->speed_gain * (input[2] - state[2 + n]), g->lowest_demand, g->highest_demand);
     driving *= g->total_mass;
@@ -169,7 +170,7 @@ static void wheels(const Vehicle *v, const double *state, const double *input, c
         double force_x = 0.0, force_y = 0.0, yaw = 0.0, rolling = 0.0;
         for (long a = v->first_axle[k]; a < v->first_axle[k + 1]; a++) {
             const Axle *x = &v->axle[a];
-            const double angle = x->steered * input[0] + input[7 + a], c = cos(angle), s = sin(angle);
+            const double angle = x->steered * input[0] + input[AXLE_STEERING + a], c = cos(angle), s = sin(angle);
             const double half = x->half_track, load = axle_load[a], drive = 0.5 * x->drive_share * driving;
             const double brake = 0.5 * (x->brake_share * braking + x->unit_brake_share * demand);
             const double one_sided = half > 0.0 ? x->unit_brake_share * fabs(moment) / half : 0.0;
