@@ -150,11 +150,21 @@ def _performance(directory: Path) -> str:
     rows = []
     for row in measured["rows"]:
         value, reference = statistics.median(row["value"]), statistics.median(row["reference"])
-        unit = f" {row['unit']}" if row["unit"] else ""
-        figures = f"{value:.3g}{unit} | {row['against']} | {reference:.3g}{unit} | {row['ratio']:.3g}"
+        unit = row["unit"]
+        figures = (
+            f"{_figure(value, unit)} | {row['against']} | {_figure(reference, unit)} | {row['ratio']:.3g}"
+        )
         rows.append(f"| {row['what']} | {figures} | {row['wanted']} |\n")
     head = "| what | median | against | median | ratio | aim |\n|---|---|---|---|---|---|\n"
     return f"Measured on {measured['machine']}.\n\n{head}{''.join(rows)}"
+
+
+def _figure(value: float, unit: str) -> str:
+    """Three digits of a value and its unit, times below a second in ms or µs."""
+    for factor, name in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
+        if unit == "s" and (value * factor >= 1.0 or name == "µs"):
+            return f"{value * factor:.3g} {name}"
+    return f"{value:.0f} {unit}" if value >= 100.0 else f"{value:.3g} {unit}".rstrip()  # noqa: PLR2004
 
 
 def _library() -> str:

@@ -46,7 +46,15 @@ def test_every_part_is_there(site: Path) -> None:
 
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")
 @pytest.mark.timeout(400)
-@pytest.mark.parametrize("words, page", [("rearward amplification", "rearward_amplification")])
+@pytest.mark.parametrize(
+    "words, page",
+    [
+        ("jackknife", "brake_on_a_slippery_road"),
+        ("MCAP", "reference/files"),
+        ("rearward amplification", "rearward_amplification"),
+        ("pause", "set_the_pace"),
+    ],
+)
 def test_a_search_finds_the_right_page_first(site: Path, tmp_path: Path, words: str, page: str) -> None:
     command = [
         *(str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),

@@ -48,7 +48,9 @@ class Curves(Response):
 
     Parameters
     ----------
-    unit_names, time, steering_angle, yaw, yaw_rate, lateral_acceleration, articulation, x, y, extra, events
+    unit_names, time, steering_angle, yaw, yaw_rate, lateral_acceleration, articulation, x, y
+        As for `Response`.
+    extra, events, event_times
         As for `Response`.
 
     Examples

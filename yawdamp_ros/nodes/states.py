@@ -33,7 +33,7 @@ class InputState(StrEnum):
 
 
 class EventState(StrEnum):
-    """Whether something happened to the vehicle since the last look."""
+    """Keys that say whether something happened to the vehicle since the last look."""
 
     NOTHING = "nothing"
     HAPPENED = "happened"
