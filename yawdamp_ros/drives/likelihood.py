@@ -167,7 +167,11 @@ class _Problem:
                 middle = middle + (1.0 - lag / LAGS) * (product + product.T)
         robust = by_likelihood @ middle @ by_likelihood
         wider = np.sqrt(np.maximum(np.diag(robust) / np.diag(by_likelihood), 1.0))
-        return np.asarray(by_likelihood * np.outer(wider, wider), dtype=np.float64)
+        known = max(
+            noise.uncertainty(len(residual))
+            for noise, residual in zip(noises, self.residuals(at), strict=True)
+        )
+        return np.asarray(known * by_likelihood * np.outer(wider, wider), dtype=np.float64)
 
     def _derivatives(self, at: FloatArray) -> list[FloatArray]:
         """Derivatives of the residuals by the coordinates, shape (k, m, p) for each group."""

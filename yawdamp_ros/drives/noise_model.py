@@ -30,6 +30,34 @@ class NoiseModel(NamedTuple):
         """Number of coefficients."""
         return len(self.coefficients)
 
+    def uncertainty(self, count: int) -> float:
+        """Factor of a variance for the noise being estimated from as many samples, not known.
+
+        A spectrum by an autoregression of order p has the degrees of freedom ``v = count / (2 p)`` (Akaike
+        1969). With a covariance of m channels estimated by v of them the variance of a generalised mean is
+        ``v (v - 1) / ((v - m + 1) (v - m))`` times what that covariance says (Rao 1967); its innovations are
+        too small by the number of coefficients.
+
+        Parameters
+        ----------
+        count : int
+
+        Returns
+        -------
+        float
+            1 or more.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> NoiseModel(np.zeros((21, 6, 6)), np.eye(6)).uncertainty(7600) > 1.05
+        True
+        """
+        size = len(self.factor)
+        freedom = max(count / max(2 * self.order, 1), size + 1.0)
+        of_spectrum = freedom * (freedom - 1.0) / ((freedom - size + 1.0) * (freedom - size))
+        return of_spectrum * count / (count - self.order * size)
+
     def whitened(self, residuals: FloatArray) -> FloatArray:
         """Innovations, of unit variance, of residuals of shape (k, m, ...); the first `order` are left out.
 
