@@ -95,7 +95,7 @@ def test_three_seconds_of_standstill_are_dropped_and_counted_and_not_made_up_for
     more_samples(graph, 20)
     status, output, errors = stop(process)
     assert status == 0
-    assert "late by more than can be made up for" in errors
+    assert "late by more than can be caught up" in errors
     assert "steps dropped" in output
     found = simulated_times(run_directory(graph.directory))
     assert np.diff(found).tolist() == [PERIOD] * (len(found) - 1)
