@@ -173,7 +173,7 @@ def recorded_messages(encoded: Encoded) -> list[SerialisedMessage]:
         if encoded.frames:
             found.append(("tf", stamp, encoded.frames[index]))
     if pending is not None:  # an event that ended the run before its next sample
-        found += [pending, *before]
+        found += (each for each in (pending, *before) if each[0] == EVENTS)
     return found
 
 
