@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from browser import CHROMIUM, QUIET, needs_browser
-from yawdamp_ros.manoeuvres import LaneChange
+from yawdamp_ros.manoeuvres import LaneChange, Step
 from yawdamp_ros.pictures.run_panels import run_panels
 from yawdamp_ros.simulation import simulate
 from yawdamp_ros.stepping import Response
@@ -74,3 +74,15 @@ def test_a_long_run_is_thinned_and_that_is_said(monkeypatch: pytest.MonkeyPatch)
     assert "one sample in" not in runs_page.runs_page([("run", CAR)])
     monkeypatch.setattr(runs_page, "MOST_SAMPLES", len(CAR.time) // 2)
     assert "run: one sample in 3 is shown" in runs_page.runs_page([("run", CAR)])
+
+
+def test_what_happened_is_marked_and_no_range_of_a_linear_model_is_shaded() -> None:
+    from yawdamp_ros.pictures import runs_page  # noqa: PLC0415 - plotly is optional
+
+    rolled = simulate(
+        load_vehicle("a_double"), Step(amplitude=0.12), 4.0, sample_period=0.05, model="nonlinear"
+    )
+    assert rolled.events[-1].final
+    text = runs_page.runs_page([("run", rolled)])
+    assert "rollover of semitrailer_1" in text
+    assert runs_page.BEYOND not in text

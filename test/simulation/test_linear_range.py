@@ -1,3 +1,5 @@
+import math
+
 from yawdamp_ros import load_vehicle
 from yawdamp_ros.manoeuvres import LaneChange
 from yawdamp_ros.simulation import Limits, LinearRange, Run, SimParameters, Stop
@@ -36,3 +38,8 @@ def test_a_hard_run_goes_on_and_is_told_of_once_with_its_first_instant() -> None
     assert "past 4, where tyres saturate" in watched.sentence
     assert watched.look() is not None
     assert watched.look() is None
+
+
+def test_the_nonlinear_model_has_no_linear_range() -> None:
+    assert Limits.warning(SimParameters(model="nonlinear")) == (math.inf, math.inf)
+    assert Limits.warning(SimParameters()) == (4.0, 0.2)

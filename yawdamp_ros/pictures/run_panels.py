@@ -127,6 +127,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
         if np.isfinite(x).all() and np.isfinite(y).all()
     ]
     marks = marks_of(responses)
+    linear = any("roll" not in response.extra for response in responses)  # no linear model rolls
     panels = [
         Panel(
             "time, s",
@@ -134,7 +135,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
             "",
             curves(output),
             output.held,
-            LINEAR_UP_TO.get(output.name),
+            LINEAR_UP_TO.get(output.name) if linear else None,
             marks,
         )
         for output in outputs.OUTPUTS

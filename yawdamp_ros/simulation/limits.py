@@ -1,11 +1,13 @@
 """Limits beyond which a motion means nothing."""
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from yawdamp_ros.dynamics import MODELS as LINEAR_MODELS
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.stepping import Sample
@@ -40,7 +42,9 @@ class Limits(NamedTuple):
 
     @classmethod
     def warning(cls, settings: SimParameters) -> "Limits":
-        """Levels past which settings ask for a warning: there a truck leaves the linear range."""
+        """Levels past which settings ask for a warning: there a truck leaves the range of a linear model."""
+        if settings.model not in LINEAR_MODELS:
+            return cls(math.inf, math.inf)
         return cls(settings.warn_lateral_acceleration, settings.warn_articulation)
 
 
