@@ -74,3 +74,13 @@ def test_every_option_that_a_page_names_is_one_of_a_command() -> None:
         if pages.MADE.isdisjoint(path.parts):
             options = re.findall(r"`(--[a-z][a-z-]+)", path.read_text(encoding="utf-8"))
             assert set(options) - known - OF_OTHERS == set(), path.name
+
+
+def test_the_table_of_services_names_those_of_the_node() -> None:
+    server = (ROOT / "yawdamp_ros" / "nodes" / "server.py").read_text(encoding="utf-8")
+    offered = {
+        (name, f"std_srvs/{kind}") for kind, name in re.findall(r'create_service\((\w+), "(~/\w+)"', server)
+    }
+    text = (ROOT / "docs" / "reference" / "node.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"^\| `(~/\w+)` \| (\S+) \|", text, re.MULTILINE)) == offered
+    assert len(offered) == 4
