@@ -90,8 +90,8 @@ def runs_page(runs: Sequence[tuple[str, Response]]) -> str:
                 y0=low, y1=high, fillcolor=SHADE, layer="below", line_width=0, row=row, col=1, name=BEYOND
             )
         for time, what in panel.marks:
-            note = {"annotation_text": what, "annotation_textangle": -90} if row == 1 else {}
-            figure.add_vline(x=time, line={"color": MARK, "dash": "dot", "width": 1}, row=row, col=1, **note)
+            label = {"annotation_text": what, "annotation_textangle": -90} if row == 1 else {}
+            figure.add_vline(x=time, line={"color": MARK, "dash": "dot", "width": 1}, row=row, col=1, **label)
         # All that is over time is zoomed into together.
         zoomed = "x" if row > 1 and panel.x_label == panels[0].x_label else None
         figure.update_xaxes(title_text=panel.x_label, matches=zoomed, row=row, col=1)
