@@ -83,6 +83,7 @@ def test_what_a_full_disk_loses_is_counted_and_a_recording_begins_anew(graph: Gr
     until(lambda: statuses("recorder").level == b"\0", "good order again")
     more_samples(graph, 30)
     lost = int(values(statuses("recorder"))["messages_lost"])
+    dropped = -(-int(values(statuses("timing"))["steps_dropped"]) // 10)
     status, _, errors = stop(process)
     assert status == 1
     assert "messages not recorded, the simulation goes on" in errors
@@ -93,8 +94,9 @@ def test_what_a_full_disk_loses_is_counted_and_a_recording_begins_anew(graph: Gr
     published = (after[0] - before[0]) // PERIOD
     assert np.diff(before).tolist() == [PERIOD] * (len(before) - 1)
     # Every message is in the file or counted, those that were under way when it failed for certain.
+    # Stamps jump where a busy machine made the node drop steps.
     missing = OUTPUTS * (published - len(before))
-    assert missing <= lost <= missing + OUTPUTS * 60
+    assert missing - OUTPUTS * dropped <= lost <= missing + OUTPUTS * 60
 
 
 def test_a_disk_that_fills_midway_leaves_what_fitted(graph: Graph, small_disk: Path) -> None:
