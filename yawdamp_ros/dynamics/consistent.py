@@ -21,9 +21,9 @@ class EquationsOfMotion:
     Attributes
     ----------
     mass : ndarray, shape (n + 1, n + 1)
-        In kg, kg m and kg m^2.
+        Mass matrix [kg, kg m, kg m^2].
     damping : ndarray, shape (n + 1, n + 1)
-        In N/rad, N m/rad and N m^2/rad, to be divided by the speed.
+        Damping matrix [N/rad, N m/rad, N m^2/rad], to be divided by the speed.
     stiffness : ndarray, shape (n + 1, n + 1)
         Forces and moments by heading: a slip angle contains the yaw of its own unit.
     steering : ndarray, shape (n + 1,)
@@ -98,9 +98,9 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     Returns
     -------
     state_matrix : ndarray, shape (..., 2 n, 2 n)
-        Of a stack, one matrix a vehicle.
+        State matrix; for a stack, one matrix for each vehicle.
     input_matrix : ndarray, shape (..., 2 n)
-        By road-wheel steer angle in rad.
+        Input matrix for the road-wheel steer angle [rad].
     """
     motion = equations_of_motion(vehicle)
     count = len(vehicle.units)

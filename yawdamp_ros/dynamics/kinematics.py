@@ -93,7 +93,7 @@ def coupled_velocities(
     velocities = np.empty_like(heading)
     forward, sideways = lead
     velocities.real[..., 0], velocities.imag[..., 0] = forward, sideways
-    # Never a product of numbers that have both parts: NumPy rounds that otherwise at the end of an array.
+    # No products of two complex numbers: NumPy rounds them differently at the end of an array.
     east, north = heading.real, heading.imag
     for index, (rear_hitch, front_hitch) in enumerate(hitches):
         ahead, behind = index, index + 1

@@ -25,7 +25,7 @@ LOWEST_SPEED = 0.01
 class LinearModel:
     """``x' = A x + B delta``, ``y = C x + D delta`` for n units.
 
-    Of a stack of k vehicles every array has a first axis of k, and the speed may be one for each.
+    For a stack of k vehicles, every array has a first axis of length k; each vehicle may have its own speed.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class LinearModel:
         Longitudinal speed in m/s.
     state_matrix : ndarray, shape (2 n, 2 n)
     input_matrix : ndarray, shape (2 n,)
-        By road-wheel steer angle in rad.
+        Input matrix for the road-wheel steer angle [rad].
     output_matrix : ndarray, shape (4 n - 1, 2 n)
     feedthrough : ndarray, shape (4 n - 1,)
     state_names : tuple of str
@@ -109,7 +109,7 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
         raise DynamicsError(message)
     with np.errstate(all="ignore"):  # what overflows is no number, and is told below
         state_matrix, input_matrix = MODELS[model](vehicle, speed)
-        # Of a stack whose input matrices are all alike there may be one.
+        # A stack whose vehicles share one input matrix may come with that one alone.
         input_matrix = np.broadcast_to(input_matrix, state_matrix.shape[:-1])
         output_matrix, feedthrough = _outputs(vehicle, speed, state_matrix, input_matrix)
         parts = state_matrix, input_matrix, output_matrix, feedthrough
@@ -149,13 +149,13 @@ class Outputs(NamedTuple):
     Attributes
     ----------
     lateral_velocity : ndarray, shape (..., n)
-        In each unit's own frame [m/s].
+        Lateral velocity in each unit's own frame [m/s].
     yaw_rate : ndarray, shape (..., n)
-        In rad/s.
+        Yaw rate [rad/s].
     lateral_acceleration : ndarray, shape (..., n)
-        In m/s^2.
+        Lateral acceleration [m/s^2].
     articulation : ndarray, shape (..., n - 1)
-        In rad.
+        Articulation angles [rad].
 
     Examples
     --------

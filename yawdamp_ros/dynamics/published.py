@@ -47,7 +47,7 @@ def published_matrices(vehicle: Vehicle, speed: float) -> PublishedMatrices:
     Parameters
     ----------
     vehicle : Vehicle
-        Its positions are turned into Table 4's distances a to j.
+        Vehicle whose positions become the distances a to j of Table 4.
     speed : float
         Longitudinal speed u in m/s, positive.
 
@@ -136,7 +136,7 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     Parameters
     ----------
     vehicle : Vehicle
-        Of the interlink's shape.
+        Vehicle with the interlink's layout.
     speed : float
         Longitudinal speed u in m/s, positive.
 
@@ -144,7 +144,7 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     -------
     state_matrix : ndarray, shape (6, 6)
     input_matrix : ndarray, shape (6,)
-        By road-wheel steer angle in rad.
+        Input matrix for the road-wheel steer angle [rad].
 
     Raises
     ------

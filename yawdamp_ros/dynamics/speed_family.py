@@ -15,12 +15,12 @@ _BASE = 8.0
 
 
 class SpeedParts(NamedTuple):
-    """Numbers that depend on the speed: a slip angle is a velocity over it, what turns is accelerated by it.
+    """Numbers that depend on the speed u: slip angles bring terms in 1/u, rotating frames terms in u.
 
     Attributes
     ----------
     constant, by_inverse, by_speed : ndarray
-        Of one shape.
+        Coefficients of 1, 1/u and u, all of the same shape.
     """
 
     constant: FloatArray
@@ -31,7 +31,7 @@ class SpeedParts(NamedTuple):
     def of(cls, values: Callable[[float], FloatArray]) -> "SpeedParts":
         """Find the parts of numbers that are a function of the speed in m/s.
 
-        Of numbers with one part only it is exact: the speeds are powers of two.
+        The result is exact for numbers with a single part, because the speeds are powers of two.
         """
         low, middle, high = (values(_BASE * factor) for factor in (1.0, 2.0, 4.0))
         first, second = middle - low, high - middle
@@ -50,7 +50,7 @@ class StateMatrices(NamedTuple):
     Attributes
     ----------
     parts : SpeedParts
-        Of shape (k, m, m).
+        Parts of shape (k, m, m).
     """
 
     parts: SpeedParts

@@ -25,11 +25,11 @@ def build_of_numerics() -> str:
 
 def _kernels() -> str:
     try:
-        # Here and not above: few need it, and installations by distributions may lack it.
+        # Imported here: few need it, and installations by distributions may lack it.
         from threadpoolctl import threadpool_info  # noqa: PLC0415
     except ImportError:
         return "kernels not known (no threadpoolctl)"
-    # SciPy brings a BLAS of its own, which no step is computed with.
+    # SciPy has a BLAS of its own, which no step uses.
     found = [
         library["architecture"]
         for library in threadpool_info()

@@ -13,21 +13,21 @@ FASTEST_REVERSE = 5.0
 
 
 class HeldInput:
-    """The newest valid value, held; every value is judged and counted.
+    """Input that holds its newest valid value; every value offered is checked and counted.
 
     Parameters
     ----------
     value : float or None
-        Until the first one arrives; None: nothing is demanded.
+        Value until the first one arrives; None demands nothing.
     low, high : float
-        What is outside is clamped.
+        Range; a value outside is clamped.
     backwards : bool
-        Whether a negative value may be; else it is rejected.
+        Whether negative values are accepted; else they are rejected.
 
     Attributes
     ----------
     value : float or None
-        In force.
+        Value in force.
     low, high : float
     counts : dict of Verdict to int
         Values offered so far, by verdict.

@@ -21,10 +21,10 @@ class Motion(Protocol):
     step : int
         Steps since the start.
     input_names : sequence of str
-        What `apply` takes; ``steering`` is among them.
+        Inputs that `apply` takes; ``steering`` is among them.
     state_names : sequence of str
     quantity_names : sequence of str
-        What a sample has in `Sample.extra`.
+        Keys of `Sample.extra`.
 
     Examples
     --------
@@ -93,7 +93,7 @@ class Motion(Protocol):
         Returns
         -------
         Sample
-            Of the last instant, or of k / steps_per_sample instants. A motion beyond all numbers is nan.
+            Last instant, or k / steps_per_sample instants. A motion that overflows is NaN.
         """
 
     def sample(self) -> Sample:

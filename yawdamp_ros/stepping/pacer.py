@@ -5,7 +5,7 @@ from typing import NamedTuple
 CATCH_UP_NS = 100_000_000
 """Longest delay in ns of the clock that is made up for."""
 LEAST_CATCH_UP = 10
-"""Sample periods that are made up for even where they are longer than that."""
+"""Sample periods that are caught up even if they are longer than that."""
 
 
 class Due(NamedTuple):
@@ -16,9 +16,9 @@ class Due(NamedTuple):
     periods : int
         Sample periods to simulate now.
     dropped : int
-        Periods that are too late to be made up for.
+        Periods that are too late to be caught up.
     lateness : float
-        How far simulated time was behind, beyond the period that had just passed, in ns of the clock.
+        Delay of simulated time behind the clock, beyond the period that has just passed [ns].
     """
 
     periods: int
@@ -83,7 +83,7 @@ class Pacer:
             return Due(0, 0, 0.0)
         if not self._rate:
             return Due(self._most(), 0, 0.0)
-        # Whole periods stay integers: over days, only what is left of one is a float.
+        # Whole periods stay integers: only the fraction of one is a float, even after days.
         self._bank(now)
         periods = int(self._ahead // self._period_ns)
         self._ahead -= periods * self._period_ns

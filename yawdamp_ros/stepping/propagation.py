@@ -17,12 +17,12 @@ class Propagator(NamedTuple):
     Attributes
     ----------
     speed : float
-        In m/s.
+        Speed [m/s].
     steps : ndarray, shape (b (2 n + 1), 2 n + b + 1)
-        For each of b steps, the state and the yaw of the lead unit after it, by the state at the start of the
-        block and the steer angles at its b + 1 instants; an angle that comes later counts 0.
+        Matrix that gives the state and the yaw of the lead unit after each of b steps, from the state at the
+        start of the block and the steer angles at its b + 1 instants; later angles have no effect.
     outputs : ndarray, shape (4 n - 1, 2 n + 1)
-        The model's outputs by state and steer angle.
+        Matrix that gives the model's outputs from state and steer angle.
     """
 
     speed: float
@@ -42,15 +42,15 @@ class Propagator(NamedTuple):
 
 
 class Propagation:
-    """State, and what the lead unit turns, in time: exact while the steering is held.
+    """State and yaw of the lead unit over time, exact while the steering is held.
 
-    Each step of a block is computed from the start of the block, all of them in one product, whose rows do
-    not depend on how many of the steps are taken at once: the bits are the same however a run is cut.
+    One product computes all steps of a block from the start of the block. Its rows do not depend on the
+    number of steps taken at once, so that the bits do not depend on how a run is split.
 
     Parameters
     ----------
     propagator : Propagator
-        Exchanged between blocks where the speed changes.
+        Matrices of one speed; replaced between blocks when the speed changes.
     """
 
     def __init__(self, propagator: Propagator) -> None:
@@ -83,7 +83,7 @@ class Propagation:
         return float(self._after[self._taken, -1])
 
     def start_block(self) -> float:
-        """Let the steps to come be computed from this instant; return what was turned in the block."""
+        """Start a block at this instant; return the yaw of the lead unit in the last block [rad]."""
         turned = self.yaw_since_block_start
         self.stand(self._after[self._taken, :-1])
         return turned
@@ -102,16 +102,15 @@ class Propagation:
         Parameters
         ----------
         angles : ndarray, shape (k,)
-            Each in force from the instant after its step on, rad.
+            Steer angles, each in force from the instant after its step on [rad].
         states : ndarray, shape (k, 2 n + 1)
-            To be filled with the state after each step, and what the lead unit has turned since the start of
-            its block.
+            Output: the state after each step, and the yaw of the lead unit since the start of its block.
 
         Returns
         -------
         list of (int, float)
-            For each block that these steps lie in: how many of them do, and what the lead unit turned in the
-            block that ended before, rad; 0 if none did.
+            Number of these steps in each block, and the yaw of the lead unit in the block that ended before
+            it [rad]; 0 if none did.
         """
         blocks: list[tuple[int, float]] = []
         done = 0
@@ -139,7 +138,7 @@ class Propagation:
         products = states.reshape(-1, len(self._product))
         dot, start, state, held = self.propagator.dot, self._start, self._state, self._angles
         size, block = len(state), self._block
-        # What an unstable motion grows to is for the caller to judge.
+        # An unstable motion may overflow; the caller checks its values.
         with np.errstate(over="ignore", invalid="ignore"):
             for index, product in enumerate(products):
                 held[:] = starting[index * block : (index + 1) * block + 1]
@@ -152,6 +151,6 @@ class Propagation:
 
 def outputs_of(known: Propagator, states_and_angle: FloatArray) -> FloatArray:
     """Outputs of the model, shape (..., 4 n - 1), by states and steer angles, shape (..., 2 n + 1)."""
-    # One small product for each instant: of many at once, the bits would depend on how many.
+    # One small product for each instant: the bits of a larger one would depend on the number of instants.
     outputs: FloatArray = np.matmul(known.outputs, states_and_angle[..., np.newaxis])[..., 0]
     return outputs

@@ -15,20 +15,20 @@ LARGEST_MATRIX_PRODUCT = 262144
 """Multiplications up to which OpenBLAS does not split a product of matrices over threads."""
 _TAYLOR = np.array([1.0 / math.factorial(power) for power in range(16)]).reshape(4, 4)
 _OF_IDENTITY, _OF_POWERS = _TAYLOR[:, :1].copy(), _TAYLOR[:, 1:].copy()
-"""Of a norm of at most a half the 16th power over 16! is 7e-19."""
+"""Taylor coefficients of the exponential: for norms up to 1/2 the first term left out is at most 7e-19."""
 
 
 class Propagators:
     """A vehicle in one model, to be stepped at any speed.
 
-    What depends on the speed is a sum of three parts, so that a speed takes a few products of small matrices.
+    The matrices are a sum of three parts, so that a new speed costs a few products of small matrices.
 
     Parameters
     ----------
     model : LinearModel
-        At any speed.
+        Model at any speed.
     step_size : float
-        In s.
+        Step size [s].
     """
 
     def __init__(self, model: LinearModel, step_size: float) -> None:
@@ -132,7 +132,7 @@ def _steps(step: FloatArray, size: int, block: int) -> FloatArray:
         last = powers[(done - 1) * width : done * width]
         _multiply(powers[: more * width], last, powers[done * width : (done + more) * width])
         done += more
-    # What an angle does to each state: at column `block` after one step, ahead of it after more, else nil.
+    # Effect of an angle on each state: column `block` after one step, earlier columns after more, else zero.
     effects = np.zeros((width, 2 * block + 1))
     by_angle = np.ascontiguousarray(step[:-1, -1])
     effects[:, block] = by_angle

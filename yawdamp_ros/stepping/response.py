@@ -30,7 +30,7 @@ class Response:
     ----------
     unit_names : tuple of str
     time : ndarray, shape (m,)
-        In s.
+        Time [s].
     steering_angle : ndarray, shape (m,)
         Road-wheel steer angle in rad, in force from that instant on.
     yaw, yaw_rate, lateral_acceleration : ndarray, shape (m, n)
@@ -42,9 +42,9 @@ class Response:
     extra : mapping of str to ndarray, shape (m, n), (m, n - 1) or (m, 1)
         Quantities that not every motion has, as `Sample.extra`.
     events : tuple of Event
-        What happened, in order of time; where the last is final, the run ends there.
+        Events in order of time; a final event ends the run.
     event_times : tuple of float
-        Of the events [s].
+        Times of the events [s].
 
     Examples
     --------
@@ -108,12 +108,12 @@ def sample_run(motion: Motion, grid: TimeGrid, steering: Steering, duration: flo
     steering : callable
         Steer angle in rad at a time in s.
     duration : float
-        In s; the last sample is at the last sample period that fits.
+        Duration [s]; the last sample is at the last sample period that fits.
 
     Yields
     ------
     Sample
-        Of one instant, then of up to `SAMPLES_AT_ONCE` each; the last ends before a final event.
+        One instant, then up to `SAMPLES_AT_ONCE` instants each; the last sample ends before a final event.
 
     Raises
     ------
@@ -174,7 +174,7 @@ def linear_response(
     angles : ndarray, shape (k,)
         Road-wheel steer angle in rad at each of k instants, held until the next.
     step_size : float
-        From one instant to the next, s.
+        Time from one instant to the next [s].
 
     Returns
     -------

@@ -105,23 +105,23 @@ class Sample(NamedTuple):
     yaw, yaw_rate : ndarray, shape (n,)
         rad and rad/s; yaw is not wrapped.
     heading : ndarray of complex, shape (n,)
-        ``cos(yaw) + i sin(yaw)``, exact after any number of turns, which the yaw as one number is not.
+        ``cos(yaw) + i sin(yaw)``, exact after any number of turns, unlike the yaw as one number.
     velocity : ndarray of complex, shape (n,)
-        Of each centre of gravity in its unit's own frame, forward and to the left as real and imaginary part:
-        the rate of the pose, m/s.
+        Velocity of each centre of gravity in its unit's own frame [m/s], the rate of the pose; the real part
+        points forward, the imaginary part to the left.
     lateral_velocity, lateral_acceleration : ndarray, shape (n,)
-        Of the linear model, for small angles: of each centre of gravity in its unit's own frame, gravity
-        excluded, m/s and m/s^2.
+        Velocity and acceleration of each centre of gravity in its unit's own frame, by the linear model for
+        small angles, gravity excluded [m/s, m/s^2].
     articulation, articulation_rate : ndarray, shape (n - 1,)
         ``psi_k - psi_(k+1)`` and its rate, rad and rad/s.
     inputs : tuple of AppliedInput
-        What took effect after the sample before, up to the last of these, in order.
+        Inputs that took effect since the previous sample, up to the last instant, in order.
     extra : mapping of str to ndarray, shape (n,), (n - 1,) or ()
         Quantities that not every motion has, by the motion's `quantity_names`.
     events : tuple of Event
-        What happened after the sample before.
+        Events since the previous sample.
     commands : tuple of Command
-        What was received after the sample before.
+        Commands received since the previous sample.
 
     Examples
     --------

@@ -12,11 +12,11 @@ class SteeringActuator:
     Parameters
     ----------
     step_size : float
-        In s.
+        Time step [s].
     time_constant : float
-        Of the lag in s; 0: none.
+        Time constant of the lag [s]; 0 for no lag.
     rate_limit : float
-        Of the road-wheel angle in rad/s; 0: none.
+        Largest rate of the road-wheel angle [rad/s]; 0 for no limit.
 
     Examples
     --------

@@ -61,7 +61,7 @@ class SteeringInput:
         Parameters
         ----------
         command : float
-            In rad, of the road wheel times the ratio.
+            Road-wheel angle times the ratio [rad].
         step : int
         age : float, optional
             Time since it was stamped [s]; None if it bears no stamp.

@@ -48,7 +48,7 @@ class Stepper:
     ----------
     model : LinearModel
     step_size : float
-        In s.
+        Step size [s].
 
     Examples
     --------
@@ -74,7 +74,7 @@ class Stepper:
             AppliedInput(0, "speed", model.speed),
             AppliedInput(0, "steering", 0.0),
         ]
-        # A measured speed comes back to values it had: their matrices are computed once.
+        # A measured speed returns to earlier values: their matrices are computed once.
         self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(Propagators(model, step_size).at)
         self._model = model
         self._motion = Propagation(self._at_speed(model.speed))
@@ -216,7 +216,7 @@ class Stepper:
         Returns
         -------
         Sample
-            Of the last instant, or of k / steps_per_sample instants. An unstable motion ends in nan.
+            Last instant, or k / steps_per_sample instants. An unstable motion ends in NaN.
         """
         given = np.asarray(angles, dtype=np.float64)
         if tell_inputs:
@@ -316,13 +316,13 @@ class Stepper:
             self._inputs.append(AppliedInput(self.step + 1 + index, "steering", float(angles[index])))
 
     def _note(self, name: str, value: float) -> None:
-        # Of what is set twice at one step only the last ever acted.
+        # An input set twice at one step acts with its last value only.
         if self._inputs and self._inputs[-1][:2] == (self.step, name):
             self._inputs.pop()
         self._inputs.append(AppliedInput(self.step, name, value))
 
     def _set_ground_velocity(self) -> None:
-        # The bits of `_ground_velocity`, of one.
+        # Same bits as `_ground_velocity`, for one instant.
         heading = complex(np.exp(complex(0.0, self._motion.yaw_since_block_start + self._yaw.direction)))
         sideways = float(self._motion.state[0])
         self._velocity = complex(
@@ -333,13 +333,13 @@ class Stepper:
 
 def _quiet(steps: int) -> AbstractContextManager[object]:
     """Leave the judgement of what an unstable motion grows to over many steps to the caller."""
-    # To enter such a context takes as long as several steps.
+    # Entering such a context takes as long as several steps.
     return np.errstate(over="ignore", invalid="ignore") if steps > FEW_STEPS else _NOTHING
 
 
 def _ground_velocity(speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:
     """Velocity over ground, shape (k,)."""
-    # Never a product of numbers that have both parts: NumPy rounds that otherwise at the end of an array.
+    # No products of two complex numbers: NumPy rounds them differently at the end of an array.
     sideways = np.zeros(len(yaw), dtype=np.complex128)
     sideways.imag = lateral_velocity
     velocity = _heading(yaw)

@@ -63,7 +63,7 @@ class TimeGrid:
             message = f"step_size: {step_size}: expected at least 1e-06 s"
             raise SteppingError(message)
         steps = round(period_ns / step_ns)
-        # A rate such as 300 Hz has no exact period; a nanosecond a step is the rounding of it.
+        # A rate such as 300 Hz has no exact period; its rounding may reach a nanosecond for each step.
         if steps < 1 or abs(steps * step_ns - period_ns) > steps:
             message = (
                 f"step_size: {step_size:g} s: expected a whole number of steps "

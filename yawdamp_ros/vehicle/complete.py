@@ -46,7 +46,7 @@ class Assumed(NamedTuple):
     unit : str
         Unit of the value; empty where there is none.
     source : str
-        Where the value comes from; the module lists the sources in full.
+        Origin of the value; the module lists the sources in full.
 
     Examples
     --------

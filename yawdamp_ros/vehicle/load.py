@@ -51,7 +51,7 @@ class VehicleSource(NamedTuple):
     Attributes
     ----------
     text : str
-        Of the vehicle file.
+        Text of the vehicle file.
     overrides : tuple of str
         Changes to it, each ``KEY=VALUE``.
 
@@ -206,7 +206,7 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     text : str
         YAML 1.2.
     source : str
-        What errors call the file.
+        Name of the file in error messages.
     overrides : sequence of str
         As for `load_vehicle`.
 
@@ -261,7 +261,7 @@ def load_stack(
     text, source, overrides
         As for `parse_vehicle`; the overrides are applied before the values.
     values : mapping of str to ndarray, shape (k,)
-        By key, as overrides take them, one value for each vehicle.
+        Values by key, as in overrides, one for each vehicle.
 
     Returns
     -------
@@ -285,7 +285,7 @@ def load_stack(
     data = _parse_yaml(text, source)
     before = deepcopy(data)
     _overridden(data, overrides, source)
-    # The schema holds each key to a range: a stack keeps to it if its extremes do.
+    # The schema limits each key to a range: a stack lies within it if its extremes do.
     for extreme in (np.min, np.max):
         for key, column in values.items():
             _set(data, key, float(extreme(column)), source)
@@ -316,7 +316,7 @@ def _builtin_directory() -> Path:
 
 
 def _is_builtin(text: str, source: str) -> bool:
-    # Known to be valid, and what is to check it takes longer to import than a whole node to start.
+    # Known to be valid; the checker takes longer to import than a node takes to start.
     return source in builtin_vehicles() and vehicle_text(source) == text
 
 
@@ -327,7 +327,7 @@ def _check_schema(data: Any, source: str) -> None:  # noqa: ANN401
 
 
 def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until it is checked
-    # Here and not above: a node is on the graph before it reads its vehicle.
+    # Imported here: a node is on the graph before it reads its vehicle.
     from yawdamp_ros.plain_yaml import parse_yaml  # noqa: PLC0415
 
     try:

@@ -4,11 +4,11 @@ A unit is described without its loads, positions from its unladen centre of grav
 the centre of gravity, and add inertia by the parallel-axis theorem. Hitches and axles stay where they are
 on the unit: only the point that they are measured from moves.
 
-How the weight of the loads reaches the road is statics, from the rear of the combination to its front. A
-towed unit rests on its front hitch and on its axles; a lead unit on its steered axles and on the others.
-Assumed is that every hitch carries vertical force and no moment, and that the axles of a group share alike,
-as a compensated suspension lets them. The loads of the axles without load are those that the file gives:
-only what the loads add is computed, because printed axle loads need not follow from a printed geometry.
+Statics gives the axle loads, from the rear of the combination to its front. A towed unit rests on its front
+hitch and on its axles; a lead unit rests on its steered axles and on the others. Every hitch is assumed to
+carry vertical force and no moment. The axles of a group share their load equally, as in a compensated
+suspension. The file gives the unladen axle loads. Only the added loads are computed, because published axle
+loads need not be consistent with the published geometry.
 """
 
 from collections.abc import Sequence
@@ -26,11 +26,11 @@ class LoadedUnit(NamedTuple):
     Attributes
     ----------
     mass : float
-        In kg.
+        Mass [kg].
     yaw_inertia : float
-        About the loaded unit's centre of gravity, in kg m^2.
+        Yaw inertia about the loaded unit's centre of gravity [kg m^2].
     shift : float
-        Of the centre of gravity, forward positive, in m.
+        Displacement of the centre of gravity by the loads, forward positive [m].
     """
 
     mass: Number
@@ -56,15 +56,15 @@ def added_axle_loads(units: Sequence[dict[str, Any]]) -> list[list[Number]]:
     Parameters
     ----------
     units : sequence of dict
-        Of the file, foremost first, with the hitches that they need.
+        Units of the file, foremost first, with the hitches that they need.
 
     Returns
     -------
     list of list of float
-        In N, of each axle of each unit; negative where a load relieves an axle.
+        Added load of each axle of each unit [N]; negative if a load relieves an axle.
     """
     added: list[list[Number]] = []
-    # What the unit behind puts on this one's rear hitch.
+    # Vertical load of the unit behind on this unit's rear hitch.
     weight: Number = 0.0
     for index in reversed(range(len(units))):
         unit = units[index]
@@ -93,14 +93,14 @@ def static_load(axle: dict[str, Any], added: Number) -> Number | None:
     Parameters
     ----------
     axle : dict
-        Of the file.
+        Axle of the vehicle file.
     added : float
-        What the loads of the file add [N].
+        Load added to the axle by the loads of the file [N].
 
     Returns
     -------
     float or None
-        In N: the ``static_load``, else that of the tyres, else None.
+        Load [N]: the ``static_load``, else that of the tyres, else None.
     """
     if "static_load" in axle:
         return axle["static_load"] + added

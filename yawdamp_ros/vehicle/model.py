@@ -31,7 +31,7 @@ class Axle:
     position : float
         Distance from the unit's centre of gravity in m, forward positive.
     cornering_stiffness : float
-        Of the whole axle, in N/rad, positive.
+        Cornering stiffness of the whole axle, positive [N/rad].
     steered : bool
         Whether the road-wheel steer angle acts on it.
     self_steering : bool
@@ -41,17 +41,17 @@ class Axle:
     tyres : int or None
         Number of tyres where the stiffness comes from the load on each (`fancher_stiffness`).
     static_load : float or None
-        Of the axle at rest [N].
+        Load of the axle at rest [N].
     track_width : float or None
-        Between the middles of the left and the right tyres [m].
+        Distance between the middles of the left and the right tyres [m].
     tyre : str, MagicFormula or None
         ``brush``, ``linear`` or the coefficients of a .tir file.
     tyre_width : float or None
-        Over the tyres of one side, both of duals [m].
+        Width over the tyres of one side, both of duals [m].
     relaxation_length : float or None
-        In m.
+        Relaxation length [m].
     roll_stiffness, roll_damping : float or None
-        Of suspension and tyres [N m/rad, N m s/rad].
+        Roll stiffness and damping of suspension and tyres [N m/rad, N m s/rad].
     rolling_resistance : float or None
         Force over load.
     driven : bool or None
@@ -92,9 +92,9 @@ class Unit:
     name : str
         Name in topics, columns and tables.
     mass : float
-        In kg.
+        Mass [kg].
     yaw_inertia : float
-        About the vertical axis through the centre of gravity, in kg m^2.
+        Inertia about the vertical axis through the centre of gravity [kg m^2].
     axles : tuple of Axle
     front_hitch, rear_hitch : float or None
         Distance from the centre of gravity in m, forward positive; None where there is none.
@@ -105,9 +105,9 @@ class Unit:
     abs : bool or None
         Whether an anti-lock system keeps the wheels turning.
     hitch_height : float or None
-        Of the rear hitch above the road [m].
+        Height of the rear hitch above the road [m].
     hitch_roll_stiffness, hitch_roll_damping : float or None
-        Of the rear hitch [N m/rad, N m s/rad]; 0 where it does not couple roll.
+        Roll stiffness and damping of the rear hitch [N m/rad, N m s/rad]; 0 if it does not couple roll.
     hitch_friction, hitch_damping : float or None
         Coulomb [N m] and viscous [N m s/rad] yaw friction of the rear hitch.
     max_articulation : float or None
@@ -115,7 +115,7 @@ class Unit:
     front_overhang, rear_overhang : float or None
         Body before the foremost and behind the rearmost axle or hitch [m], for drawings and swept paths.
     width, height : float or None
-        Of the body [m], for drawings and swept paths.
+        Size of the body [m], for drawings and swept paths.
 
     Examples
     --------
@@ -155,15 +155,15 @@ class Vehicle:
     ----------
     name : str
     speed : float
-        The longitudinal speed at which it is looked at unless another is asked for, in m/s.
+        Default longitudinal speed of its analysis [m/s].
     units : tuple of Unit
-        Each towed by the one before it.
+        Units from front to rear, each towed by the one before it.
     friction : float or None
-        Of tyres on the road.
+        Coefficient of friction between tyres and road.
     drag_area : float or None
         Drag coefficient times frontal area [m^2].
     drag_height : float or None
-        Of the air drag above the road [m].
+        Height of the air drag above the road [m].
     start_force, drive_force : float or None
         Largest force at the driven wheels when starting and when moving slowly [N].
     drive_power : float or None

@@ -49,13 +49,13 @@ class Suspicion(NamedTuple):
     Attributes
     ----------
     rule : str
-        Which rule it breaks.
+        Rule that it breaks.
     key : str
         Path of the number, as `--set` takes it.
     problem : str
         Value, what was expected, and the likely mistake.
     impossible : bool
-        Whether no vehicle can have it.
+        Whether the value is impossible for any vehicle.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def suspicions(vehicle: Vehicle) -> tuple[Suspicion, ...]:
     Returns
     -------
     tuple of Suspicion
-        In the order in which they should be looked at: what is behind one may cause those after it.
+        Suspicions in the order of inspection: the cause of one may also cause those after it.
 
     Examples
     --------
@@ -100,7 +100,7 @@ def check_plausible(vehicle: Vehicle, source: str) -> tuple[Suspicion, ...]:
     ----------
     vehicle : Vehicle
     source : str
-        What errors call the file.
+        Name of the file in error messages.
 
     Returns
     -------

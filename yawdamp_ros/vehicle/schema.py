@@ -20,7 +20,7 @@ def check_schema(data: Any, source: str, schema: str = "vehicle.schema.json") ->
     VehicleError
         If they do not keep to it; the message names file, key, value and what was expected.
     """
-    # First, for infinities and integers too long for a float make no good messages.
+    # First, because infinities and integers too long for a float lead to unclear messages.
     for key, value in _numbers(data, ""):
         if abs(value) > 1e300 or math.isnan(value):  # noqa: PLR2004
             shown = value if isinstance(value, float) else "a very long number"

@@ -3,9 +3,9 @@
 from yawdamp_ros.vehicle.model import Unit
 
 WIDTH = 2.5
-"""Of every unit in m: the usual width of heavy vehicles; a vehicle file does not say."""
+"""Width of every unit's outline [m], the usual width of heavy vehicles."""
 HEIGHT = 1.5
-"""Of every unit in m, for pictures only."""
+"""Height of every unit's outline [m], for pictures only."""
 
 GROUND_FRAME = "odom"
 """Name of the frame of the ground."""

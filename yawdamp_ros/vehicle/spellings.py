@@ -78,7 +78,7 @@ SPELLINGS: Mapping[str, tuple[str, float]] = MappingProxyType(
 """Canonical key and factor of every key with a unit."""
 ORIGINS = ("centre_of_gravity", "front_axle", "front_hitch")
 STIFFNESSES = ("cornering_stiffness", "cornering_coefficient")
-"""Of an axle; one takes the place of the other."""
+"""Keys of the stiffness of an axle; one replaces the other."""
 
 
 def canonical(data: Any, source: str) -> Any:  # noqa: ANN401 - of any file
@@ -89,12 +89,13 @@ def canonical(data: Any, source: str) -> Any:  # noqa: ANN401 - of any file
     data : object
         As read; it is not changed.
     source : str
-        What errors call the file.
+        Name of the file in error messages.
 
     Returns
     -------
     object
-        What has not the form of a vehicle file is left as it is, for the schema to tell of.
+        Data with canonical keys. Parts without the form of a vehicle file stay as they are, for the schema to
+        report.
 
     Raises
     ------

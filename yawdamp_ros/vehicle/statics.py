@@ -36,9 +36,9 @@ class StaticLoads(NamedTuple):
     Attributes
     ----------
     axles : tuple of float
-        In N.
+        Load of each axle [N].
     front_hitch : float
-        In N, positive where the unit rests on the one ahead; 0 of the lead unit.
+        Load of the front hitch [N], positive if the unit rests on the one ahead; 0 for the lead unit.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def static_loads(vehicle: Vehicle, *, given: bool = True) -> tuple[StaticLoads, 
     Returns
     -------
     tuple of StaticLoads
-        Of each unit, foremost first. A load below zero is set to zero: such a unit would tip.
+        Loads of each unit, foremost first. A negative load is set to zero: such a unit would tip.
 
     Examples
     --------

@@ -38,7 +38,7 @@ COEFFICIENTS = (
     "FNOMIN", "PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PEY3", "PKY1", "PKY2", "PHY1", "PHY2", "PVY1", "PVY2",
     "LFZO", "LCY", "LMUY", "LEY", "LKY", "LHY", "LVY", "PDX1", "PDX2", "LMUX",
 )  # fmt: skip
-"""What the model reads, in the order of `MagicFormula.coefficients`; a scale (L..) that is missing is 1."""
+"""Names read from the file, in the order of `MagicFormula.coefficients`; a missing scale (L..) is 1."""
 
 _SECTION = re.compile(r"\[([A-Za-z0-9_]+)\]")
 _ENTRY = re.compile(r"([A-Za-z][A-Za-z0-9_]*)\s*=\s*('[^']*'|[^\s']+)")
@@ -53,9 +53,9 @@ class MagicFormula:
     name : str
         File that it was read from.
     coefficients : tuple of float
-        By `COEFFICIENTS`, in SI units.
+        Coefficients in the order of `COEFFICIENTS`, in SI units.
     relaxation_length : float or None
-        At the nominal load, from PTY1, PTY2 and UNLOADED_RADIUS [m]; None where the file does not give it.
+        Relaxation length at the nominal load [m], from PTY1, PTY2 and UNLOADED_RADIUS; None without them.
 
     Examples
     --------
@@ -150,7 +150,7 @@ def parse_tir(text: str, source: str) -> MagicFormula:
     ----------
     text : str
     source : str
-        What errors call the file.
+        Name of the file in error messages.
 
     Returns
     -------

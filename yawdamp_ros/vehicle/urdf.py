@@ -45,7 +45,7 @@ def _link(robot: Element, unit: Unit) -> None:
     link = SubElement(robot, "link", name=unit.name)
     inertial = SubElement(link, "inertial")
     SubElement(inertial, "mass", value=repr(unit.mass))
-    # The model knows no roll and no pitch; a yaw inertia alone would not be a rigid body's.
+    # The model has no roll and no pitch; a yaw inertia alone makes no rigid body.
     half = repr(0.5 * unit.yaw_inertia)
     SubElement(inertial, "inertia", ixx=half, iyy=half, izz=repr(unit.yaw_inertia), ixy="0", ixz="0", iyz="0")
     visual = SubElement(link, "visual")
