@@ -32,7 +32,7 @@ def compiled(function: Function) -> Function:
     Parameters
     ----------
     function : callable
-        Of numbers, arrays and named tuples of these.
+        Function of numbers, arrays and named tuples of these.
 
     Returns
     -------

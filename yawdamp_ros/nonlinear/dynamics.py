@@ -47,7 +47,7 @@ class Steps:
     rolled_over : str
         Name of the unit that rolled over, at which the motion ends; empty otherwise.
     events : tuple of Event
-        That began in these steps and not before.
+        Events that began in these steps.
     diverged : str
         Name of the unit whose motion diverges in the next step; empty otherwise.
 
@@ -76,7 +76,7 @@ class NonlinearDynamics:
     Parameters
     ----------
     vehicle : Vehicle
-        What it does not give is assumed (`yawdamp_ros.vehicle.assumed` lists it).
+        Vehicle; missing values are assumed (`yawdamp_ros.vehicle.assumed` lists them).
     settings : Settings
 
     Examples
@@ -139,18 +139,18 @@ class NonlinearDynamics:
         steering : float
             Road-wheel steer angle [rad].
         acceleration : float
-            Demanded of the combination [m/s^2]: the driven axles drive, or all brakes brake.
+            Acceleration demanded of the combination [m/s^2]: the driven axles drive, or all brakes brake.
         speed : float, optional
-            That the controller holds [m/s]; without it nothing does.
+            Speed that the controller holds [m/s]; without it there is no speed control.
         friction : float or (float, float), optional
-            Of the road, or of the left and the right wheels; the vehicle's own unless given.
+            Friction of the road, or under the left and the right wheels; the vehicle's own unless given.
         grade, crossfall : float
             Rise of the road along X and along Y.
 
         Returns
         -------
         ndarray
-            By `input_layout`, in forward gear; its slices hold the demands on single axles and units, 0 here.
+            Inputs by `input_layout`, in forward gear; demands on single axles and units are 0.
         """
         made = np.zeros(self.input_layout.size)
         own = self.parameters.scalars[NOMINAL_FRICTION] if friction is None else friction
@@ -172,11 +172,11 @@ class NonlinearDynamics:
         Parameters
         ----------
         speed : float
-            In m/s; negative is backwards.
+            Speed [m/s]; negative is backwards.
         pose : (float, float, float)
             Position [m] and yaw [rad] of the lead unit.
         articulation : sequence of float
-            Of every joint [rad]; empty: straight.
+            Angle of every joint [rad]; empty for a straight combination.
 
         Returns
         -------
@@ -221,7 +221,7 @@ class NonlinearDynamics:
         Parameters
         ----------
         state, inputs : ndarray
-            By `layout` and `input_layout`.
+            State by `layout` and inputs by `input_layout`.
 
         Returns
         -------
@@ -281,11 +281,11 @@ class NonlinearDynamics:
         Parameters
         ----------
         state : ndarray
-            Where they start; it is not changed.
+            Initial state; it is not changed.
         inputs : ndarray, shape (k,) or (count, k)
-            Held over all steps, or a row for each.
+            Inputs held over all steps, or one row for each step.
         dt : float
-            In s.
+            Time step [s].
         count : int, optional
             Number of steps, a multiple of ``every``; the rows of the inputs unless given.
         every : int
@@ -338,7 +338,7 @@ class NonlinearDynamics:
         ----------
         states : ndarray, shape (k, m)
         inputs : ndarray, shape (j,) or (k, j)
-            One for all, or a row for each.
+            Inputs of all states, or one row for each.
 
         Returns
         -------
@@ -349,7 +349,7 @@ class NonlinearDynamics:
         NonlinearError
             If the inputs do not fit the states.
         """
-        # Copies: what NumPy shares may not be written, which Numba takes for another type.
+        # Copies: broadcast arrays of NumPy are read-only, which is another type to Numba.
         every, rows = np.array(states, float, order="C"), np.array(np.atleast_2d(inputs), float, order="C")
         if len(rows) not in {1, len(every)}:
             message = f"{len(every)} states: expected a row of inputs for each or one for all"

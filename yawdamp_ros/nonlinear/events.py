@@ -138,9 +138,9 @@ def named_events(steps: IntArray, names: tuple[str, ...], axles: tuple[int, ...]
     Parameters
     ----------
     steps : ndarray of int
-        As `note_events` filled it.
+        First step of each event, as `note_events` writes it.
     names : tuple of str
-        Of the units.
+        Names of the units.
     axles : tuple of int
         Number of axles of each unit.
     """

@@ -49,14 +49,14 @@ def rates(state: FloatArray, inputs: FloatArray, p: Parameters, w: Work, out: Fl
     Parameters
     ----------
     state : ndarray
-        As `StateLayout` has it.
+        State by `StateLayout`.
     inputs : ndarray
-        As `InputLayout` has it.
+        Inputs by `InputLayout`.
     p : Parameters
     w : Work
         Overwritten; holds forces, loads and accelerations afterwards.
     out : ndarray
-        The rates, written.
+        Output: rates of the state.
     """
     unit_table, scalars, unit_work = p.units, p.scalars, w.units
     units = unit_table.shape[0]
@@ -127,12 +127,12 @@ def rk4_steps(
     inputs : ndarray, shape (steps, k) or (1, k)
         A row for each step, or one for all.
     dt : float
-        In s.
+        Time step [s].
     p, w
     stages : ndarray, shape (3, m)
         Scratch.
     samples : ndarray, shape (steps // every, m)
-        The state after every ``every`` steps, written.
+        Output: the state after every ``every`` steps.
     every : int
     first : int
         Number of the first step, for the events.
@@ -188,7 +188,7 @@ def all_outputs(
     Parameters
     ----------
     outputs : Outputs
-        Of as many instants as there are states, written.
+        Outputs of as many instants as there are states; they are overwritten.
     states : ndarray, shape (k, m)
     inputs : ndarray, shape (k, j) or (1, j)
         A row for each state, or one for all.

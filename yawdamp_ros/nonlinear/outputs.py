@@ -38,26 +38,26 @@ class Outputs(NamedTuple):
     Attributes
     ----------
     position : ndarray, shape (m, n, 2)
-        Of the ground point below each upright unit's centre of gravity (CG), in the plane of the road [m].
+        Position of the ground point below each upright unit's centre of gravity (CG), in the road plane [m].
     yaw : ndarray, shape (m, n)
-        In rad.
+        Yaw angles [rad].
     velocity : ndarray, shape (m, n, 2)
-        Of the ground points, in the unit's own frame [m/s].
+        Velocity of the ground points, in the unit's own frame [m/s].
     yaw_rate : ndarray, shape (m, n)
-        In rad/s.
+        Yaw rate [rad/s].
     acceleration : ndarray, shape (m, n, 2)
-        Of the CGs along the road, in the unit's own frame [m/s^2].
+        Acceleration of the CGs along the road, in the unit's own frame [m/s^2].
     roll, roll_rate : ndarray, shape (m, n)
-        In rad and rad/s, positive where the unit leans to the right.
+        Roll angle [rad] and roll rate [rad/s], positive if the unit leans to the right.
     load_transfer_ratio : ndarray, shape (m, n)
-        Loads of the right wheels less those of the left over both; 0 of a unit that carries no load.
+        Load of the right wheels minus load of the left wheels, over their sum; 0 for a unit without load.
     articulation : ndarray, shape (m, n - 1)
-        In rad.
+        Articulation angles [rad].
     hitch_force : ndarray, shape (m, n - 1, 3)
-        On the towed unit, in the towing unit's frame; the third is the load that the hitch carries [N].
+        Force on the towed unit, in the towing unit's frame; the third is the load that the hitch carries [N].
     wheel_load, slip, slide, longitudinal_force, lateral_force : ndarray, shape (m, 2 a)
-        Of every wheel, left before right: load [N], lateral slip, share by which a braked wheel slides, and
-        forces in the wheel's frame [N].
+        Values of every wheel, left before right: load [N], lateral slip, share by which a braked wheel
+        slides, and forces in the wheel's frame [N].
 
     Examples
     --------

@@ -98,7 +98,7 @@ def parameters(vehicle: Vehicle, settings: Settings) -> Parameters:
     Parameters
     ----------
     vehicle : Vehicle
-        What it does not give is assumed (`vehicle.complete`).
+        Vehicle; missing values are assumed (`vehicle.complete`).
     settings : Settings
 
     Returns

@@ -106,7 +106,7 @@ class Work(NamedTuple):
     units : ndarray, shape (n, UNIT_WORK)
     wheels : ndarray, shape (2 a, WHEEL_WORK)
     axle_loads : ndarray, shape (a,)
-        In N.
+        Load of each axle [N].
     mass_matrix : ndarray, shape (2 + 2 n, 2 + 2 n)
     solution : ndarray, shape (2 + 2 n,)
         Generalised forces, and then accelerations.

@@ -20,8 +20,8 @@ class Settings:
     rolling_resistance, drag : bool
         Whether these resist the motion.
     speed_gain : float
-        Of the speed controller: acceleration demanded for each m/s that the speed is short [1/s]. The driven
-        axles drive and hold back alike, as a cruise control with a retarder does.
+        Gain of the speed controller: acceleration demanded per speed error [1/s]. The driven axles both drive
+        and retard, as a cruise control with a retarder does.
     lowest_demand, highest_demand : float
         Limits of that acceleration [m/s^2].
     load_shift_time : float

@@ -33,13 +33,13 @@ from yawdamp_ros.nonlinear.settings import Settings
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle, complete, static_loads
 
 ROLLS = np.geomspace(1e-5, 0.7, 120)
-"""Mean roll angles at which the equilibrium is looked for [rad]."""
+"""Mean roll angles at which the equilibrium is computed [rad]."""
 REFINEMENTS = 4
-"""Times that the highest of them is looked for between its neighbours."""
+"""Number of refinements of the maximum between its neighbours."""
 ITERATIONS = 40
-"""Of Newton's method; every spring that reaches its end takes one."""
+"""Limit on the iterations of Newton's method; every spring that reaches its end takes one."""
 TOLERANCE = 1e-9
-"""Moment left in an equilibrium, over the weight times a metre."""
+"""Residual moment in an equilibrium, relative to the weight times one metre."""
 
 
 class RollGroup(NamedTuple):
@@ -68,7 +68,7 @@ def static_rollover(vehicle: Vehicle) -> tuple[RollGroup, ...]:
     Parameters
     ----------
     vehicle : Vehicle
-        What it does not give is assumed (`yawdamp_ros.vehicle.assumed` lists it).
+        Vehicle; missing values are assumed (`yawdamp_ros.vehicle.assumed` lists them).
 
     Returns
     -------

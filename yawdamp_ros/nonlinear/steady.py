@@ -55,7 +55,7 @@ class Linearisation:
     ----------
     state_matrix : ndarray, shape (k, k)
     input_matrix : ndarray, shape (k,)
-        By road-wheel steer angle [1/rad].
+        Input matrix for the road-wheel steer angle [1/rad].
     output_matrix : ndarray, shape (5 n - 1, k)
     feedthrough : ndarray, shape (5 n - 1,)
     states : ndarray of int, shape (k,)
@@ -100,7 +100,7 @@ def steady_turn(
     inputs : ndarray
         Road and demands; steering and speed are found.
     steering : float, optional
-        In rad.
+        Steer angle [rad].
     lateral_acceleration : float, optional
         Speed times yaw rate [m/s^2]; one of both is needed.
 
@@ -165,7 +165,7 @@ def linearise(dynamics: NonlinearDynamics, state: FloatArray, inputs: FloatArray
     ----------
     dynamics : NonlinearDynamics
     state, inputs : ndarray
-        Of the steady motion, as `SteadyTurn` has them.
+        State and inputs of the steady motion, as in `SteadyTurn`.
 
     Returns
     -------

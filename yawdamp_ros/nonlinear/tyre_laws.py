@@ -61,11 +61,11 @@ def magic_formula_force(slip: float, load: float, scale: float, row: FloatArray)
     slip : float
         Tangent of the slip angle, positive where the tyre slides to the right.
     load : float
-        In N, positive.
+        Load [N], positive.
     scale : float
         Friction over that of the tyre's own road.
     row : ndarray, shape (23,)
-        Of `Parameters.magic`.
+        Row of `Parameters.magic`.
 
     Returns
     -------

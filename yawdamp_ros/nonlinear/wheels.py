@@ -206,7 +206,7 @@ def wheel_forces(state: FloatArray, inputs: FloatArray, p: Parameters, w: Work, 
                 )
                 wheel_work[wheel, SLIP], wheel_work[wheel, GRIP] = slip, grip
                 wheel_work[wheel, CONTACT_X], wheel_work[wheel, CONTACT_Y] = vx, vy
-            # First with the load that the springs shift, then also with that which the roll centre does: the
+            # First with the load shifted by the springs, then also with that shifted by the roll centre: the
             # sum of both wheels' lateral forces hardly depends on it.
             shift = along = across = turning = 0.0
             for _ in range(2 if with_roll else 1):

@@ -35,11 +35,11 @@ class Commands:
     settings : SimParameters
     grid : TimeGrid
     motion : Motion
-        That they are for.
+        Motion that takes the commands.
     log : (sequence of float, sequence of float), optional
         Times in s and commanded angles in rad, each in force until the next.
     inputs : mapping of str to (sequence of float, sequence of float), optional
-        The same of other inputs, by name, whatever `longitudinal_source` says.
+        Times and values of other inputs, by name, whatever `longitudinal_source` says.
 
     Attributes
     ----------
@@ -106,11 +106,11 @@ class Commands:
         Parameters
         ----------
         angle : float
-            As commanded, rad.
+            Commanded angle [rad].
         age : float, optional
-            How long ago it was stamped, in s; None if it bears no stamp.
+            Age of its time stamp [s]; None without a time stamp.
         message : object, optional
-            What held it, to be recorded.
+            Message that held it, to be recorded.
         """
         return self._offer(angle, self._motion.step, age, message)
 

@@ -21,11 +21,11 @@ class Input(NamedTuple):
     Attributes
     ----------
     name : str
-        Its topic, behind ``<unit>/`` where each unit has one.
+        Topic; it follows ``<unit>/`` if each unit has one.
     description : str
     unit : str
     low, high : float
-        What is outside is clamped.
+        Range; a value outside is clamped.
     of_unit : bool
     """
 
@@ -113,7 +113,7 @@ def held_inputs(motion: Motion) -> dict[str, HeldInput]:
         kind = input_of(name)
         if kind is not None:
             made[name] = HeldInput(None, kind.low, kind.high)
-    # Where speed is a state, a vehicle stands and reverses; else slip angles need it to move.
+    # A vehicle whose speed is a state can stand and reverse; else slip angles need forward motion.
     if "speed" in made:
         stands = "acceleration" in made
         low = -FASTEST_REVERSE if stands else LOWEST_FOLLOWED

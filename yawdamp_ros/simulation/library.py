@@ -31,7 +31,7 @@ def simulate(  # noqa: PLR0913 - each is one setting of a run
         Road-wheel steer angle in rad: at a time in s, as the manoeuvres are, or of every step of the
         duration, from 0 s on; one more value is that from the end on.
     duration : float
-        In s.
+        Duration [s].
     step_size : float
         Fixed step in s; the steering is held over each.
     sample_period : float, optional

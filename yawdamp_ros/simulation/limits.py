@@ -21,9 +21,9 @@ class Limits(NamedTuple):
     Attributes
     ----------
     lateral_acceleration : float
-        Of any unit, m/s^2.
+        Largest lateral acceleration of any unit [m/s^2].
     articulation : float
-        Of any joint, rad.
+        Largest articulation angle of any joint [rad].
 
     Examples
     --------
@@ -83,7 +83,7 @@ def limit_violation(
     Parameters
     ----------
     sample : Sample
-        Of one or more instants.
+        Sample of one or more instants.
     unit_names : sequence of str
     limits : Limits
     consequence : str

@@ -15,7 +15,7 @@ class LinearRange:
     ----------
     unit_names : sequence of str
     levels : Limits
-        May be exchanged while running.
+        Limits of the linear range; they may be replaced during a run.
     tell : callable, optional
         Told of the first instant past a level.
 

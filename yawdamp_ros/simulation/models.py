@@ -44,7 +44,7 @@ def make_motion(
     speed : float or None
         Longitudinal speed in m/s; None: the vehicle's own.
     step_size : float
-        In s.
+        Step size [s].
     start : Start, optional
 
     Returns

@@ -22,7 +22,7 @@ QUANTITIES: Mapping[str, Callable[[Outputs], FloatArray]] = {
     "hitch_force_x": lambda outputs: outputs.hitch_force[..., 0],
     "hitch_force_y": lambda outputs: outputs.hitch_force[..., 1],
 }
-"""What a sample holds besides what every motion has, each with the way to it."""
+"""Quantities of a sample that only this motion has, each with its source in the outputs."""
 
 
 class NonlinearMotion:
@@ -36,7 +36,7 @@ class NonlinearMotion:
     speed : float or None
         Longitudinal speed [m/s], 0 or negative, too; None: the vehicle's own.
     step_size : float
-        In s.
+        Step size [s].
 
     Examples
     --------
@@ -174,9 +174,9 @@ class NonlinearMotion:
         self._told = []
 
     def linearise(self) -> LinearModel:
-        """Linear model to which this motion tends for small steering, `consistent`, at the speed of now.
+        """Linear model that this motion approaches for small steering, `consistent`, at the present speed.
 
-        Of a motion that has ended, at the speed at which it began. It bears the name of this motion.
+        A motion that has ended is linearised at its first speed. The model bears the name of this motion.
         """
         speed = self.speed if np.isfinite(self.speed) else self._first_speed
         return replace(linear_model(self.vehicle, max(abs(speed), LOWEST_SPEED)), model="nonlinear")
@@ -226,7 +226,7 @@ class NonlinearMotion:
         )
 
     def _tell(self, applied: AppliedInput) -> None:
-        # Of what is set twice at one step only the last ever acted.
+        # An input set twice at one step acts with its last value only.
         if self._told and self._told[-1][:2] == applied[:2]:
             self._told.pop()
         self._told.append(applied)

@@ -22,11 +22,11 @@ class Plant:
     Parameters
     ----------
     settings : SimParameters
-        As the node has them; `publish_rate` is that of the controller.
+        Settings as for the node; `publish_rate` is the rate of the controller.
     vehicle : Vehicle, optional
-        In place of that of the settings.
+        Vehicle in place of that of the settings.
     sinks : sequence of Sink
-        Told of every sample, besides.
+        Further receivers of every sample.
 
     Attributes
     ----------
@@ -34,11 +34,11 @@ class Plant:
     vehicle : Vehicle
     grid : TimeGrid
     run : Run
-        Anew after each `reset`.
+        Present run; each `reset` makes a new one.
     commands : Commands
-        Of the run.
+        Commands of the run.
     sample : Sample
-        The newest.
+        Newest sample.
 
     Raises
     ------
@@ -91,12 +91,12 @@ class Plant:
         Parameters
         ----------
         inputs : mapping of str to float
-            ``steering`` and other inputs by name; what is not given is held.
+            ``steering`` and other inputs by name; an input that is not given keeps its value.
 
         Returns
         -------
         Sample
-            Of the period's end; of a run that was stopped the last there was.
+            Sample at the end of the period, or the last sample of a run that was stopped.
 
         Raises
         ------

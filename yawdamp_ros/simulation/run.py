@@ -54,20 +54,20 @@ class Run:
     grid : TimeGrid
     source : Source
     sinks : sequence of Sink
-        Told of every sample in this order.
+        Receivers of every sample, in this order.
     limits : Limits, optional
-        May be exchanged while running.
+        Limits that stop the run; they may be replaced while it runs.
 
     Attributes
     ----------
     samples : int
-        Handed on so far.
+        Number of samples handed on so far.
     stopped : Stop or None
-        Why it was stopped; nothing is handed on any more.
+        Reason of the stop; no further sample is handed on.
     events : list of Event
-        What happened so far, in order of time.
+        Events so far, in order of time.
     unwritten : tuple of Event
-        Those of them that ended the run before its next sample, which no sink was told of.
+        Events that ended the run before its next sample; no sink received them.
 
     Examples
     --------
@@ -163,7 +163,7 @@ class Run:
             found = limit_violation(sample, self.motion.vehicle.unit_names, self.limits)
         if found is not None:
             instant, violation = found
-            # What follows a final event is no number, and not the reason.
+            # Values after a final event are NaN; the event is the reason.
             self.stopped = self.stopped or violation
             if not instant:
                 self.unwritten = sample.events
