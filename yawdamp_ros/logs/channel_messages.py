@@ -13,7 +13,7 @@ class Field(NamedTuple):
     quantity : str
         As in `QUANTITIES`.
     path : str
-        Of its field, as in ``angular_velocity.z``.
+        Path of its field, as in ``angular_velocity.z``.
     """
 
     quantity: str

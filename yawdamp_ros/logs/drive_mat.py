@@ -29,7 +29,7 @@ def read_drive_mat(path: Path, options: DriveOptions) -> Drive:
     Parameters
     ----------
     path : Path
-        With vectors named as the columns of a CSV file are, one of them the time.
+        File of vectors named as the columns of a CSV file, one of them the time.
     options : DriveOptions
 
     Returns

@@ -54,7 +54,7 @@ def read_drive_recording(path: Path, options: DriveOptions, log: Log | None = No
     path : Path
     options : DriveOptions
     log : Log, optional
-        Its messages, where another format holds them.
+        Messages of the log, if another format holds them.
 
     Returns
     -------
@@ -74,7 +74,7 @@ def read_drive_recording(path: Path, options: DriveOptions, log: Log | None = No
         if logged.type_name == JUMP_TYPE and logged.topic.endswith(JUMP_TOPIC):
             jumped += int.from_bytes(logged.data[4:12], "little", signed=True)
             continue
-        # A run of the node is on its own time, whatever its stamps jumped by to follow ROS time.
+        # A run of the node has its own time, whatever jumps its stamps made to follow ROS time.
         message = logged._replace(log_time=logged.log_time - jumped)
         topics[message.topic] = message.type_name
         if message.type_name in _HELD_TYPES or message.topic in wished:

@@ -11,7 +11,7 @@ from yawdamp_ros.logs.channel_names import Wish, listed, named, unit_in
 from yawdamp_ros.logs.errors import LogError
 
 LARGEST_VALUE = 1e12
-"""Of any channel; what is beyond is no measurement."""
+"""Largest value of any channel; a larger one is no measurement."""
 
 
 class Column(NamedTuple):
@@ -39,7 +39,7 @@ def measured_columns(
     taken : sequence of str
         Columns that hold something else.
     source : object
-        What errors call the file.
+        Name of the file in error messages.
 
     Raises
     ------
@@ -67,11 +67,11 @@ def channels_of(
     Parameters
     ----------
     columns : mapping of str to Column
-        By channel.
+        Columns by channel.
     times : ndarray, shape (m,)
-        In s.
+        Times [s].
     values : mapping of str to ndarray, shape (m,)
-        By column; not a number where there is none.
+        Values by column; NaN where a value is missing.
     """
     channels, notes = {}, []
     for name, column in columns.items():

@@ -46,7 +46,7 @@ class RecordedMessage(NamedTuple):
     type_name : str
         As in ``sensor_msgs/msg/Imu``.
     log_time : int
-        In ns.
+        Time of logging [ns].
     data : bytes
     schema : Schema
         Definition, as in the file.
@@ -87,11 +87,11 @@ class McapLog:
     Attributes
     ----------
     attachments : dict of str to bytes
-        By name; filled as `messages` is read, as are the others.
+        Attachments by name; reading `messages` fills this and the following attributes.
     metadata : dict of str to dict
-        By name.
+        Metadata by name.
     warning : str
-        Where a file ends before its time, and what that means; else empty.
+        Place at which a file ends early, and the consequence; else empty.
 
     Raises
     ------
@@ -252,7 +252,7 @@ class _Whole(bytes):
 
 
 def _decoder(message: RecordedMessage) -> Any:  # noqa: ANN401 - made from the definition
-    # Remarks mean nothing here, and the library takes time by the square of their length.
+    # Comments have no meaning here, and the library's time grows with the square of their length.
     text = re.sub(rb"#.*", b"", message.schema.data)
     if len(text) > LARGEST_DEFINITION:
         reason = "longer than a message definition"
@@ -346,7 +346,7 @@ def _bag_files(directory: Path) -> list[Path]:
         ]
         storage, names = information["storage_identifier"], information["relative_file_paths"]
         mode = str(information.get("compression_mode") or "").upper()
-        # The last part of each: a run is read from its own directory. One that is listed twice plays once.
+        # The last part of each path: a run is read from its own directory. A file listed twice is read once.
         files = list(dict.fromkeys(directory / Path(name).name for name in names))
     except OSError as error:
         raise LogError(metadata, f"cannot be read: {error.strerror}") from error

@@ -36,7 +36,7 @@ def check_room(output: Path, samples: int, units: int) -> None:
     Parameters
     ----------
     output : Path
-        Where the run is to be, a name ending in .csv for a CSV file.
+        Path of the run to be written; a name ending in .csv means a CSV file.
     samples, units : int
 
     Raises

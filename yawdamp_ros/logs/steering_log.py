@@ -22,13 +22,13 @@ class SteeringLog:
     source : str
         File it came from.
     times : sequence of float
-        In s from the start of the log, not decreasing.
+        Times from the start of the log [s], not decreasing.
     angles : sequence of float
-        In rad, left positive.
+        Angles, left positive [rad].
     start_time : int
-        Time of the first sample in ns, where the log knows; else 0.
+        Time of the first sample [ns], if the log has it; else 0.
     warning : str
-        What is wrong with the file, though these samples could be read; else empty.
+        Fault of the file that did not prevent reading; else empty.
     speed_times, speeds : sequence of float
         Samples of the speed beside it, in s and m/s, each in force until the next; empty where the log
         has none.

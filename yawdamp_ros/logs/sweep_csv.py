@@ -26,7 +26,7 @@ class SweepCsv:
     path : Path
         Gone on from where it holds the beginning of the same sweep, else written anew.
     definition : mapping
-        All that makes the sweep what it is, of what JSON can hold.
+        Definition of the sweep, of types that JSON can hold.
     points : Points
         The k points, of d coordinates each.
     columns : sequence of str

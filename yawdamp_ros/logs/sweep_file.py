@@ -25,7 +25,7 @@ class SweepFile(Protocol):
     Attributes
     ----------
     answers : ndarray, shape (m, a)
-        That the file already holds: of the first m points.
+        Answers of the first m points, which the file already holds.
     """
 
     answers: FloatArray
@@ -38,13 +38,13 @@ class SweepFile(Protocol):
 
 
 def describe(path: Path, definition: Mapping[str, object]) -> bool:
-    """Say beside a file which sweep it is of; whether the file is there and of the same one.
+    """Write the sweep's definition beside a file; return whether the file exists with the same definition.
 
     Parameters
     ----------
     path : Path
     definition : mapping
-        All that makes the sweep what it is, of what JSON can hold.
+        Definition of the sweep, of types that JSON can hold.
 
     Raises
     ------

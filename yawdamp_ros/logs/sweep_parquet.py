@@ -16,7 +16,7 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs.sweep_file import another, describe, unusable
 
 ROWS = 10_000
-"""Of a part."""
+"""Rows of a part."""
 PATIENCE = 60.0
 """Seconds after which a part is written however few rows there are."""
 

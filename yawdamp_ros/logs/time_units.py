@@ -55,7 +55,7 @@ def time_unit(column: str, times: Sequence[float]) -> TimeUnit:
     if by_name is not None or column.endswith("_s"):
         return by_name or SECONDS
     interval = (times[-1] - times[0]) / (len(times) - 1) if len(times) >= TELLING else 0.0
-    # The finest unit in which the times are still too large for the one before it.
+    # The finest unit in which the times are too large for the next coarser one.
     too_large = [
         unit
         for coarser, unit in zip((SECONDS, *UNITS), UNITS, strict=False)

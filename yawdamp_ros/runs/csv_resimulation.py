@@ -10,10 +10,10 @@ from yawdamp_ros.stepping import Response, TimeGrid
 from yawdamp_ros.stepping.response import respond
 
 TOLERANCE = 1e-9
-"""Of the largest magnitude of a quantity, of any unit, over the run; promised where bit-identity is not.
+"""Tolerance relative to the largest magnitude of a quantity over the run and all units.
 
-A value that starts from 0, or that all but cancels, keeps fewer digits than the motion it is part of. Between
-builds of NumPy and BLAS kernels 1,000 random stable vehicles of up to 12 units differ by up to 2e-12.
+It is guaranteed where bit-identity is not. A value near 0 keeps fewer digits than the motion it is part of.
+Builds of NumPy and BLAS kernels differ by up to 2e-12 for 1,000 random stable vehicles of up to 12 units.
 """
 
 QUANTITIES = ("yaw", "yaw_rate", "lateral_acceleration", "articulation")
@@ -25,7 +25,7 @@ class Mismatch(NamedTuple):
     Attributes
     ----------
     time : float
-        In s.
+        Time [s].
     quantity : str
     column : int
         Unit, or joint, from 0.

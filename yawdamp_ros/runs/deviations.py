@@ -31,7 +31,7 @@ class Deviations:
     """Deviations of a run, to be judged once the size of the motion over all of it is known."""
 
     def __init__(self) -> None:
-        # Only a value that lies farther off than all before can be the first beyond a bound.
+        # Only a deviation larger than all before can be the first beyond a bound.
         self._rising: dict[str, list[tuple[float, Difference]]] = {}
 
     @property

@@ -20,13 +20,13 @@ from yawdamp_ros.stepping.time_grid import SECOND
 from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
 TWISTS = ("rate of the pose", "small angles")
-"""What the twist of an odometry message is: earlier recordings hold that of the linear model."""
+"""Kinds of twist in an odometry message; earlier recordings hold the linear model's, for small angles."""
 
 
 class Noise(NamedTuple):
-    """Normally distributed noise on what the imu topics hold, and nothing else.
+    """Normally distributed noise on the imu topics alone.
 
-    It depends on the seed and the step alone, so that it repeats wherever a run is taken up.
+    It depends on the seed and the step alone, so that a resumed run repeats it.
 
     Attributes
     ----------
@@ -81,19 +81,19 @@ class Encoded(NamedTuple):
     Attributes
     ----------
     sample : Sample
-        Of m instants.
+        Sample of m instants.
     stamps : list of int
-        Of the instants, in ns.
+        Time stamps of the instants [ns].
     names : tuple of str
         Relative topics.
     messages : list of list of bytes
-        For each instant the message of every name, in CDR.
+        Message of every name for each instant, in CDR.
     stamp : callable
         Stamp in ns of any step.
     jump : Jump or None
-        Of the stamps, since the sample before.
+        Jump of the time stamps since the previous sample.
     frames : list of bytes
-        For each instant the message of `Frames.moving`; empty where there are no frames.
+        Message of `Frames.moving` for each instant; empty without frames.
     """
 
     sample: Sample
@@ -121,22 +121,22 @@ class Encoder:
     Parameters
     ----------
     motion : Motion
-        Whose samples they are.
+        Motion that the samples come from.
     settings : SimParameters
     grid : TimeGrid
     start_time : int
         Stamp of step 0 in ns.
     twist : str
-        One of `TWISTS`; other than the first only of what was recorded so.
+        One of `TWISTS`; the second only for runs that were recorded with it.
     surge : bool
-        Whether the imu shows the acceleration of a speed that changes; not in early recordings.
+        Whether the imu shows the longitudinal acceleration; early recordings do not.
 
     Attributes
     ----------
     stamps : Stamps
-        Of the steps to come.
+        Time stamps of the steps to come.
     frames : Frames or None
-        Of the units, where settings ask for them.
+        Frames of the units, if the settings ask for them.
     types : dict of str to str
         Message type by relative topic, in the order of `Encoded.names`.
     sinks : list of EncodedSink
@@ -328,8 +328,8 @@ class Encoder:
     def _prepare_joint_states(self, message: Any, _: str) -> None:  # noqa: ANN401
         joints = range(1, len(self._unit_names))
         message.name = ["steering", *(f"articulation_{joint}" for joint in joints)]
-        # Filled though it means nothing here: a message that ends in an empty float64[] is padded in a way
-        # that some readers reject.
+        # Filled without a meaning: some readers reject the padding of a message that ends in an empty
+        # float64[].
         message.position = message.velocity = message.effort = [0.0] * len(message.name)
 
     _PREPARATIONS: Mapping[str, Callable[["Encoder", Any, str], None]] = MappingProxyType(

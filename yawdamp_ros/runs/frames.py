@@ -28,7 +28,7 @@ class Frames:
     ----------
     vehicle : Vehicle
     prefix : str
-        Before the name of every frame.
+        Prefix of every frame's name.
     hitches : bool
         Whether the frames behind the lead unit are among them.
     """

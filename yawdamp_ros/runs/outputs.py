@@ -31,24 +31,24 @@ class Of(Enum):
 
 
 class Output(NamedTuple):
-    """A quantity, or a message, that comes out of a run.
+    """Quantity or message that a run puts out.
 
     Attributes
     ----------
     name : str
-        Its topic and its column, behind ``<unit>/`` or before ``_<joint>`` where there are several.
+        Topic and column; it follows ``<unit>/`` or precedes ``_<joint>`` if there are several.
     of : Of
     description : str
     unit : str
-        Empty where it holds several quantities; then it is no column.
+        Unit of measure; empty for several quantities, which are no column.
     type_name : str
-        Of its message; empty where it is no topic.
+        Message type; empty if the output is no topic.
     fields : mapping of str to str
         Quantity by path of the double in the message that holds it; ``{joint}`` stands for every joint.
     held : bool
         Whether a value holds until the next; else it changes towards it.
     value : callable, optional
-        Of its own quantity from a sample, where that is neither a field of it nor in its `Sample.extra`.
+        Function from a sample to the quantity, if it is neither a field of `Sample` nor in `Sample.extra`.
 
     Examples
     --------

@@ -46,16 +46,16 @@ class Recipe:
     motion : Motion
     grid : TimeGrid
     settings : SimParameters
-        At the start.
+        Settings at the start.
     vehicle : VehicleSource
     stamps : Stamps
-        Of the steps to come.
+        Time stamps of the steps to come.
     types : mapping of str to str
         Message type of every output by relative topic.
     frames : Frames, optional
-        Of the units, if they are to be recorded.
+        Frames of the units, if they are to be recorded.
     resolve : callable, optional
-        From a relative topic to its fully qualified name.
+        Function from a relative topic to its fully qualified name.
     """
 
     def __init__(  # noqa: PLR0913 - each is one part of what explains a run
@@ -77,7 +77,7 @@ class Recipe:
             name: Channel(resolve(applied_topic(name)), input_type(name)) for name in motion.input_names
         }
         self._frames = frames
-        # Models that have the linear quantities alone know no events.
+        # Models with the linear quantities alone have no events.
         self._events = {EVENTS: Channel(resolve(EVENTS), EVENT_TYPE)} if motion.quantity_names else {}
         self._jumps = Channel(resolve(JUMP), INT64)
         self._commands = (
@@ -111,7 +111,7 @@ class Recipe:
 
     def _metadata(self, settings: SimParameters) -> dict[str, str]:
         motion = self._motion
-        # First, for it starts a block: what is recorded is what follows it.
+        # First, because it starts a block: the recording holds the samples that follow.
         initial = dict(motion.snapshot())
         linear = motion.linearise()
         return {

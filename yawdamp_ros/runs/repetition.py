@@ -32,16 +32,16 @@ class Answer:
     Attributes
     ----------
     agrees, bit_identical : bool
-        As promised; to the last bit.
+        Whether the promise holds; whether every value is the same to the last bit.
     promise, reason : str
     duration : float
-        Compared, in s.
+        Simulated time compared [s].
     samples, values : int
-        How much was compared.
+        Number of samples and values compared.
     difference : Difference or None
-        The first one.
+        First difference.
     warning : str
-        What is wrong with the file; else empty.
+        Fault of the file that did not prevent reading; else empty.
     """
 
     agrees: bool

@@ -47,17 +47,17 @@ class Resimulation:
     Attributes
     ----------
     duration : float
-        Simulated time compared, in s.
+        Simulated time compared [s].
     samples, messages, values : int
-        How much was compared.
+        Number of samples, messages and values compared.
     difference : Difference or None
-        The first one.
+        First difference.
     bit_identical : bool
-        Whether every value compared so far is the same to the last bit.
+        Whether every value compared so far agrees to the last bit.
     promised : bool
-        Whether bit-identity is: the run is of this kind of machine and this build of the numerics.
+        Whether bit-identity is promised: the run comes from this kind of machine and this numerical build.
     recorded_build, build : str
-        The build it is of, and this one.
+        Build that made the run, and this build.
 
     Raises
     ------
@@ -68,7 +68,7 @@ class Resimulation:
     def __init__(self, path: Path) -> None:
         self._log = McapLog(path)
         self._messages = self._log.messages()
-        # What explains a run comes before its first message.
+        # The metadata that explains a run precedes its first message.
         self._first = next(self._messages, None)
         try:
             known = self._log.metadata[METADATA_NAME]
@@ -153,7 +153,7 @@ class Resimulation:
     def write(self, encoded: Encoded) -> None:
         """Compare a sample of the repetition with what was recorded at its instant; see `EncodedSink`."""
         for name, data in zip(encoded.names, encoded.messages[0], strict=True):
-            # An output that came after the version that recorded the run is not in it.
+            # Outputs added after the version that recorded the run are not in it.
             if self.difference is None and name in self._topics:
                 self._compare(self._topics[name], self._encoder.types[name], data)
 
@@ -235,7 +235,7 @@ class Resimulation:
         if topic not in self._value_counts:
             self._value_counts[topic] = sum(1 for _ in _values(deserialize_message(repeated, kind)))
         self.values += self._value_counts[topic]
-        # The same bytes are the same values. Others need not be others: padding holds old memory.
+        # Equal bytes are equal values. Different bytes may also be equal values: padding holds old memory.
         if recorded[topic] == repeated:
             return
         pairs = zip(
@@ -298,7 +298,7 @@ class _Recorded:
     Parameters
     ----------
     steering_angle : float
-        In force before the first of them, rad.
+        Steering angle in force before the first of them [rad].
     """
 
     def __init__(self, steering_angle: float) -> None:

@@ -24,7 +24,7 @@ class ResponseCsv:
     path : Path
         Written anew.
     motion : Motion
-        Whose samples they are.
+        Motion that the samples come from.
     grid : TimeGrid
 
     Raises

@@ -15,7 +15,7 @@ from yawdamp_ros.runs.response_csv import ground_columns
 from yawdamp_ros.stepping import Response
 
 LARGEST_VALUE = 1e30
-"""Of any quantity of a run; beyond, nothing could be drawn of it."""
+"""Largest value of any quantity of a run; a larger one could not be drawn."""
 
 
 def read_response_csv(path: Path) -> Response:

@@ -118,7 +118,7 @@ def _response(messages: Mapping[str, list[Any]], units: tuple[str, ...], stamps:
         unit_names=units,
         time=np.array([(stamp - stamps[0]) / SECOND for stamp in stamps[:count]]),
         steering_angle=joints[:, 0],
-        # A quaternion knows a heading only up to whole turns; the way it turned is continuous.
+        # A quaternion gives a heading only up to whole turns; the heading itself is continuous.
         yaw=np.unwrap(gather(lambda unit, index: _yaw(imu(unit, index).orientation)), axis=0),
         yaw_rate=gather(lambda unit, index: imu(unit, index).angular_velocity.z),
         lateral_acceleration=gather(lambda unit, index: imu(unit, index).linear_acceleration.y),

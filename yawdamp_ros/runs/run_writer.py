@@ -15,7 +15,7 @@ from yawdamp_ros.runs.message_definitions import MessageDefinition, message_defi
 CHUNK_SIZE = 4 * 1024 * 1024
 """Bytes. The writer keeps an index entry of every chunk: small ones would fill the memory of a long run."""
 QUEUE_DEPTH = 10
-"""Of every publisher, as its recording says, and of every subscription."""
+"""Queue depth of every publisher, as recorded, and of every subscription."""
 _INFINITE = {"sec": 9223372036, "nsec": 854775807}
 _QOS = {
     "history": "keep_last",
@@ -69,9 +69,9 @@ class RunWriter:
     Parameters
     ----------
     directory : Path
-        It is there, and empty: nothing in it is overwritten.
+        Existing empty directory: nothing in it is overwritten.
     channels : mapping of str to Channel
-        By the names by which messages are written.
+        Channels by the names used in writing messages.
     attachments : mapping of str to str
         Texts by file name, such as the vehicle file.
     metadata : mapping of str to mapping of str to str
@@ -102,7 +102,7 @@ class RunWriter:
         attachments: Mapping[str, str],
         metadata: Mapping[str, Mapping[str, str]],
     ) -> None:
-        # Here and not above: it loads long, and a node is on the graph by now.
+        # Imported here: it loads slowly, and a node is on the graph by now.
         from mcap.writer import CompressionType, Writer  # noqa: PLC0415
 
         self.directory = directory
@@ -175,7 +175,7 @@ class RunWriter:
             self._check_place()
             self._close_file()
             self._flushed = self._taken
-            # Under its own name only when it is whole: readers go by it, and do without where it is missing.
+            # The file gets its name when it is complete: readers trust it, and do without if it is missing.
             unfinished = self.directory / "metadata.yaml.unfinished"
             text = _dump_yaml({"rosbag2_bagfile_information": information})
             unfinished.write_text(text, encoding="utf-8")
@@ -236,7 +236,7 @@ class RunWriter:
         }
 
     def _check_place(self) -> None:
-        # To write to a file that was removed succeeds, and keeps nothing.
+        # Writing to a removed file succeeds, but keeps nothing.
         if self._file is not None and not os.fstat(self._file.fileno()).st_nlink:
             self._flushed = 0
             raise FileNotFoundError(errno.ENOENT, "the file was removed while it was written")
@@ -301,7 +301,7 @@ def make_run_directory(wanted: Path, *, numbered: bool) -> Path:
     path, repeat = wanted, 1
     while True:
         try:
-            # To look first and make it then would be too late: simulators start side by side.
+            # No check before creation: another simulator may create it in between.
             path.mkdir(parents=True)
         except OSError as error:
             if not (numbered and os.path.lexists(path)):

@@ -38,7 +38,7 @@ class Templates:
     Parameters
     ----------
     blanks : sequence of Blank
-        Their doubles are overwritten.
+        Blanks whose doubles are overwritten.
     """
 
     def __init__(self, blanks: Sequence[Blank]) -> None:
@@ -70,7 +70,7 @@ class Templates:
         ----------
         values : ndarray, shape (m, columns)
         stamps : sequence of int
-            Of their headers, in ns.
+            Stamps of the message headers [ns].
         """
         rows = np.empty((len(stamps), len(self._row)), dtype=np.uint8)
         rows[:] = self._row
