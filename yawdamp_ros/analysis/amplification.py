@@ -28,7 +28,7 @@ class PeakAmplification(NamedTuple):
     ----------
     gain : float
     frequency : float
-        Where it is reached, in Hz.
+        Frequency of that gain [Hz].
 
     Examples
     --------
@@ -94,7 +94,7 @@ def amplification_at(model: LinearModel, frequencies: FloatArray) -> FloatArray:
     ----------
     model : LinearModel
     frequencies : ndarray, shape (k,)
-        In Hz.
+        Frequencies [Hz].
 
     Returns
     -------
@@ -158,7 +158,7 @@ def peak_amplifications(model: LinearModel) -> tuple[Answers, Answers]:
     Parameters
     ----------
     model : LinearModel
-        Of a stack of vehicles.
+        Model of a stack of vehicles.
 
     Returns
     -------

@@ -19,7 +19,7 @@ class Answers:
     values : ndarray, shape (k,)
         NaN where there is none.
     reasons : mapping of int to str
-        Why there is none, by index of the vehicle, where that needs saying.
+        Reasons for missing values by index of the vehicle, where one is needed.
     spans : ndarray, shape (k, 2), optional
         Lowest and highest value that the measure could be read as, where it is ambiguous.
     """

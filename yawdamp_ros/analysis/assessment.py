@@ -32,21 +32,21 @@ class Finding:
     ----------
     measure : Measure or VehicleMeasure
     speed : float
-        At which it was taken, in m/s.
+        Speed at which the measure was taken [m/s].
     value : float or None
     passed : bool or None
         Whether it meets its limits; None without a value or a limit, or where a limit takes a static rollover
         threshold that is not known and no other limit is failed.
     reason : str
-        Why there is no value; empty where that needs no saying.
+        Reason for a missing value; empty if none is needed.
     ambiguity : str
-        Why the verdict is not sure, or why there is none; empty where it is.
+        Reason for an uncertain or a missing verdict; empty for a certain one.
     requirements : tuple of Requirement
-        Of the scheme.
+        Requirements of the scheme.
     limits : tuple of float or None
-        Of the level in question, for each requirement; of the easiest where no level is chosen.
+        Limit of the chosen level for each requirement; of the easiest level if none is chosen.
     reached : int or None
-        Place of the hardest level that it meets.
+        Index of the hardest level that it meets.
 
     Examples
     --------
@@ -179,19 +179,19 @@ def assess(  # noqa: PLR0913, PLR0917 - each chooses one thing
     model : str
         One of `yawdamp_ros.dynamics.MODELS`, or ``nonlinear``; for the measures that several models have.
     speed : float, optional
-        For every measure but those of a manoeuvre with its own, in m/s; unless given each is taken at its
-        standard's speed or, where that names none, at the vehicle's own.
+        Speed of every measure whose manoeuvre has none of its own [m/s]. The default is the speed of the
+        measure's standard or, without one, the vehicle's own.
     srt : float, optional
         Static rollover threshold in g, in place of the computed one.
     scheme : Scheme, optional
         The linear lateral measures with the limits of PBS and RTAC unless given.
     level : str, optional
-        Of the scheme; the easiest unless given.
+        Level of the scheme; the easiest unless given.
 
     Returns
     -------
     tuple of Finding
-        In the order of the scheme.
+        Findings in the order of the scheme.
 
     Raises
     ------
@@ -281,7 +281,7 @@ def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Fin
     Returns
     -------
     tuple of (Finding, Finding)
-        By `consistent` and by the nonlinear model, each at the manoeuvre of its standard.
+        Findings by `consistent` and by the nonlinear model, each at the manoeuvre of its standard.
 
     Examples
     --------

@@ -68,7 +68,7 @@ def find_boundaries(
     Returns
     -------
     tuple of Boundary
-        In the order of the scan.
+        Boundaries in the order of the scan.
 
     Examples
     --------
@@ -104,7 +104,7 @@ def speed_boundaries(
     Returns
     -------
     tuple of Boundary
-        By rising speed in m/s.
+        Boundaries by rising speed [m/s].
 
     Raises
     ------
@@ -134,7 +134,7 @@ def critical_speeds(model: LinearModel) -> Answers:
     Parameters
     ----------
     model : LinearModel
-        Of a stack of k vehicles; its speed does not matter.
+        Model of a stack of k vehicles; its speed does not matter.
 
     Returns
     -------
@@ -160,7 +160,7 @@ def critical_speed(boundaries: Iterable[Boundary]) -> float | None:
     Returns
     -------
     float or None
-        In m/s; None if there is no such speed.
+        Speed [m/s]; None if there is no such speed.
 
     Examples
     --------
@@ -187,7 +187,7 @@ def zero_damping_speed(boundaries: Iterable[Boundary]) -> float | None:
     Returns
     -------
     float or None
-        In m/s; None if there is no such speed.
+        Speed [m/s]; None if there is no such speed.
 
     Examples
     --------

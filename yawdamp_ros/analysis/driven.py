@@ -20,15 +20,15 @@ from yawdamp_ros.vehicle import Vehicle, complete
 from yawdamp_ros.vehicle.shape import extent
 
 STEP = 0.001
-"""Of the motion in s."""
+"""Time step of the motion [s]."""
 EVERY = 20
-"""Steps between looks at the road and samples."""
+"""Steps between samples; the driver looks at the road as often."""
 APPROACH = 3.0
 """Straight way before a turn [m]."""
 GAIN = 0.5
 """Direction that a driver aims at by the distance from the path [rad/m]."""
 CROSSFALL = 0.03
-"""Of the straight road of PBS's tracking ability, without its roughness."""
+"""Crossfall of the straight road of PBS's tracking-ability test, whose roughness is left out."""
 SPLIT_FRICTION = (0.5, 0.25)
 """Left and right: at least 0.5, and twice the other (UN R13, annex 13)."""
 HARD_BRAKING = 5.0
@@ -123,7 +123,7 @@ def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
     ----------
     vehicle : Vehicle
     speed : float
-        In m/s.
+        Speed [m/s].
 
     Returns
     -------
@@ -175,7 +175,7 @@ def tracking_ability_on_a_straight_path(vehicle: Vehicle, speed: float) -> float
     ----------
     vehicle : Vehicle
     speed : float
-        In m/s.
+        Speed [m/s].
 
     Returns
     -------
@@ -213,7 +213,7 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
     ----------
     vehicle : Vehicle
     speed : float
-        At which braking begins, in m/s.
+        Speed at which braking begins [m/s].
 
     Returns
     -------

@@ -22,7 +22,7 @@ class Mode:
     Attributes
     ----------
     eigenvalue : complex
-        In 1/s.
+        Eigenvalue [1/s].
     yaw_rates : ndarray of complex, shape (n,)
         Yaw rate of every unit in the mode, scaled so that the largest is 1; an argument is a phase lead.
     moving_units : tuple of str

@@ -35,7 +35,7 @@ class FrequencyResponse:
         Parameters
         ----------
         model : LinearModel
-            Of a stack of vehicles.
+            Model of a stack of vehicles.
         outputs : tuple of int
         """
         from scipy.linalg import schur  # noqa: PLC0415 - what asks for no gain does not wait for it

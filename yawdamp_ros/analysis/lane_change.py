@@ -16,10 +16,10 @@ from yawdamp_ros.stepping import Response
 from yawdamp_ros.vehicle import Vehicle
 
 SAMPLE_PERIOD = 0.005
-"""Of a run in s; the motion is exact at any."""
+"""Sample period of a run [s]; the motion is exact for any."""
 
 DURATION = 12.0
-"""Of a run in s, from the beginning of the lane change until the last unit has come to rest in its lane."""
+"""Duration of a run [s], from the start of the lane change until the last unit rests in its lane."""
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,9 @@ class SingleLaneChange:
     Attributes
     ----------
     amplitude : float
-        In m/s^2.
+        Amplitude [m/s^2].
     frequency : float
-        In Hz.
+        Frequency [Hz].
 
     Examples
     --------
@@ -97,7 +97,7 @@ def run_lane_change(
     model : LinearModel
     change : SingleLaneChange
     duration : float
-        In s, from the beginning of the lane change.
+        Duration from the beginning of the lane change [s].
 
     Returns
     -------
@@ -143,9 +143,9 @@ class Paths(NamedTuple):
     Attributes
     ----------
     yaw : ndarray, shape (k, m, n)
-        In rad.
+        Yaw angles [rad].
     x, y : ndarray, shape (k, m, n)
-        In m.
+        Coordinates [m].
     """
 
     yaw: FloatArray
@@ -163,17 +163,17 @@ class LaneChangeRuns:
     Parameters
     ----------
     model : LinearModel
-        Of a stack of k vehicles.
+        Model of a stack of k vehicles.
     change : SingleLaneChange
     duration : float
-        In s, from the beginning of the lane change.
+        Duration from the beginning of the lane change [s].
 
     Attributes
     ----------
     time : ndarray, shape (m,)
-        In s.
+        Time [s].
     reasons : dict of int to str
-        Why there is no run, by index of the vehicle. What a run without one gives is no motion of anything.
+        Reasons for missing runs by index of the vehicle; the values of such a run have no meaning.
     """
 
     def __init__(
@@ -192,13 +192,13 @@ class LaneChangeRuns:
         closed = model.state_matrix - self._inputs[:, :, np.newaxis] * self._row[:, np.newaxis]
         self.reasons = self._refusals(closed)
         self._rates = self._system(closed, 2.0 * np.pi * change.frequency)
-        # What cannot be held on the path would outgrow all numbers.
+        # A vehicle that cannot be held on the path would overflow.
         self._rates[list(self.reasons)] = 0.0
         period = 1.0 / change.frequency
         self._turning = min(int(np.floor(period / SAMPLE_PERIOD)) + 1, instants)
         self._start = np.zeros((self._count, self._size + 3))
         self._start[:, -1] = change.amplitude
-        # From the end of the sine, which need not be at a sample, the axle keeps its lane.
+        # The axle keeps its lane from the end of the sine on; that end need not be at a sample.
         end = (stacked_exponential(self._rates * period) @ self._start[..., np.newaxis])[..., 0]
         end[:, -2:] = 0.0
         rest = stacked_exponential(self._rates * (self._turning * SAMPLE_PERIOD - period))
@@ -249,7 +249,7 @@ class LaneChangeRuns:
     def _rows(self, known: FloatArray, through: FloatArray) -> FloatArray:
         """Rows, by states and acceleration, of outputs by states and steering."""
         rows = np.zeros((*known.shape[:2], self._size + 3))
-        # The steering that an acceleration takes.
+        # Steering that gives the acceleration.
         by_angle = through / self._direct
         rows[..., : self._size] = known - by_angle[..., np.newaxis] * self._row[:, np.newaxis]
         rows[..., -2] = by_angle

@@ -19,9 +19,9 @@ class Locus:
     ----------
     values : ndarray, shape (k,)
     eigenvalues : ndarray of complex, shape (k, 2 n)
-        In 1/s, those of each value by rising real, then imaginary part.
+        Eigenvalues of each value [1/s], by rising real, then imaginary part.
     boundaries : tuple of Boundary
-        Where stability changes between the first and the last value.
+        Values between the first and the last at which stability changes.
 
     Examples
     --------

@@ -41,9 +41,9 @@ class Measure:
     unit : str
         Empty for a ratio.
     definition : str
-        What is computed, and whose measure it is.
+        Definition of the measure, and its author.
     answers : callable
-        Values for the model of a stack of vehicles.
+        Function from the model of a stack of vehicles to the values.
     speed : float or None
         Speed that the standard asks for [m/s]; None for the vehicle's own.
 
@@ -91,11 +91,11 @@ class VehicleMeasure:
         Value of a vehicle at a speed in m/s; None where it does not apply, as
         the swing of trailers to a truck.
     speed : float or None
-        That its standard asks for, in m/s; None: the vehicle's own.
+        Speed that its standard asks for [m/s]; None for the vehicle's own.
     fixed : bool
         Whether the manoeuvre has its own speed, whatever is asked for.
     caveat : str
-        Why the value is a lower bound, which can fail an upper limit but not meet it; empty where it is not.
+        Reason that the value is a lower bound, which can fail an upper limit but not meet it; else empty.
 
     Examples
     --------

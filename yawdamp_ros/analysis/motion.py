@@ -60,7 +60,7 @@ def stacked_exponential(matrices: FloatArray) -> FloatArray:
     scaled = matrices * np.ldexp(1.0, -squarings)[:, np.newaxis, np.newaxis]
     term = np.broadcast_to(np.eye(matrices.shape[-1]), matrices.shape)
     result = term.copy()
-    # Of a norm of at most a half the 17th power over 17! is 2e-20.
+    # For norms up to 1/2 the 17th term is at most 2e-20.
     for power in range(1, _TERMS + 1):
         term = term @ scaled / power
         result += term

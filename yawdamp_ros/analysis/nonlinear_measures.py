@@ -42,7 +42,7 @@ def nonlinear_measure(name: str, vehicle: Vehicle, speed: float | None = None) -
         One of `yawdamp_ros.analysis.measures.NONLINEAR_MEASURES`.
     vehicle : Vehicle
     speed : float, optional
-        In m/s; the measure's own, or else the vehicle's, unless given.
+        Speed [m/s]; the default is the measure's own, else the vehicle's.
 
     Returns
     -------

@@ -14,7 +14,7 @@ from yawdamp_ros.stepping import Response
 from yawdamp_ros.vehicle import Vehicle
 
 STEADY_RADIUS = 400.0
-"""Of the steady curve, at the lead unit's centre of gravity, in m."""
+"""Radius of the steady curve, at the lead unit's centre of gravity [m]."""
 
 
 class Path(NamedTuple):
@@ -39,7 +39,7 @@ def axle_path(response: Response, unit: int, position: float) -> Path:
     unit : int
         Index of the unit.
     position : float
-        From its centre of gravity in m, forward positive.
+        Position from its centre of gravity, forward positive [m].
 
     Returns
     -------
@@ -110,7 +110,7 @@ def steady_offtracking(model: LinearModel, radius: float = STEADY_RADIUS) -> flo
     ----------
     model : LinearModel
     radius : float
-        Of the path of the lead unit's centre of gravity in m.
+        Radius of the path of the lead unit's centre of gravity [m].
 
     Returns
     -------
@@ -143,9 +143,9 @@ def steady_offtrackings(model: LinearModel, radius: float = STEADY_RADIUS) -> An
     Parameters
     ----------
     model : LinearModel
-        Of a stack of vehicles.
+        Model of a stack of vehicles.
     radius : float
-        Of the path of the lead unit's centre of gravity in m.
+        Radius of the path of the lead unit's centre of gravity [m].
 
     Returns
     -------

@@ -28,13 +28,13 @@ class Requirement:
     kind : str
         ``least`` and ``above`` bound the value from below, ``most`` from above.
     limits : tuple of float
-        In the measure's unit, or per unit of another measure; one for each level, or one for all.
+        Limits in the measure's unit, or per unit of another measure; one for each level, or one for all.
     times : str
         Measure that the limits are multiplied by; empty for none.
     text : str
-        As tables show it.
+        Text of the requirement in tables.
     note : str
-        What the file says besides.
+        Note of the scheme's file.
 
     Examples
     --------
@@ -55,9 +55,9 @@ class Requirement:
         Parameters
         ----------
         level : int
-            Its place among the scheme's levels.
+            Index among the scheme's levels.
         values : mapping of str to float or None
-            Of the measures.
+            Values of the measures, by name.
 
         Returns
         -------
@@ -87,10 +87,10 @@ class Scheme:
     levels : tuple of str
         The hardest first; one without a name where the scheme has none.
     measures : tuple of str
-        In the order of the file.
+        Measures in the order of the file.
     requirements : tuple of Requirement
     sources : tuple of str
-        Where the limits were read.
+        Sources of the limits.
 
     Examples
     --------

@@ -26,7 +26,7 @@ class Severity(NamedTuple):
     ----------
     vehicle : Vehicle
     speed : float
-        In m/s.
+        Speed [m/s].
     lateral_acceleration : ndarray, shape (m,)
         Speed times yaw rate [m/s^2].
     braking : ndarray, shape (m,)
@@ -34,14 +34,14 @@ class Severity(NamedTuple):
     steering : ndarray, shape (m,)
         Road-wheel steer angle [rad].
     eigenvalues : ndarray of complex, shape (m, k)
-        Of the model linearised in each turn [1/s], by rising real part.
+        Eigenvalues of the model linearised in each turn [1/s], by rising real part.
     handling : ndarray, shape (m, n)
-        The handling diagram [rad]: of the lead unit the steer angle beyond the Ackermann angle, of a towed
-        unit the side slip angle at the middle of its axles.
+        Handling diagram [rad]: for the lead unit the steer angle minus the Ackermann angle, for a towed unit
+        the side slip angle at the middle of its axles.
     roll, load_transfer_ratio : ndarray, shape (m, n)
         Roll in rad.
     limit : str
-        Why there is no harder turn; empty where the last one is what was asked for.
+        Reason that no harder turn exists; empty if the last one is the one asked for.
     """
 
     vehicle: Vehicle
@@ -97,13 +97,13 @@ def severity(  # noqa: PLR0913 - each is one condition of the turn
     ----------
     vehicle : Vehicle
     lateral_acceleration : float
-        Of the hardest turn, to the left [m/s^2]; 0 for straight running under ever harder braking.
+        Lateral acceleration of the hardest turn, to the left [m/s^2]; 0 for ever harder straight braking.
     speed : float, optional
-        In m/s; the vehicle's own unless given.
+        Speed [m/s]; the vehicle's own unless given.
     friction : float, optional
-        Of the road; the vehicle's own unless given.
+        Friction of the road; the vehicle's own unless given.
     braking : float
-        Deceleration demanded of all brakes [m/s^2], in every turn alike.
+        Deceleration demanded of all brakes [m/s^2], the same in every turn.
     turns : int
         Number of turns, evenly apart.
     progress : callable, optional

@@ -20,7 +20,7 @@ class SchemeStudy:
     Attributes
     ----------
     studies : tuple of Study
-        Of one vehicle and its varied keys, by the measures of the scheme.
+        Studies of one vehicle and its varied keys, one for each measure of the scheme.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def share_of(
     values : ndarray, shape (k, m)
         NaN where there is none.
     level : str, optional
-        Of the scheme; its easiest unless given.
+        Level of the scheme; the easiest unless given.
     srt : float, optional
         Static rollover threshold in g, in place of the computed one.
 

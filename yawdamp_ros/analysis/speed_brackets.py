@@ -27,7 +27,7 @@ class Brackets(NamedTuple):
     vehicles : ndarray of int, shape (b,)
         Index of the vehicle; rising, and the speeds of each vehicle rise.
     low, high : ndarray, shape (b,)
-        In m/s.
+        Lower and upper speed [m/s].
     unstable_above : ndarray of bool, shape (b,)
         Whether it is the higher speed that is unstable.
     """
@@ -69,9 +69,9 @@ def speed_brackets(matrices: StateMatrices, speeds: tuple[float, float] = SPEEDS
     Parameters
     ----------
     matrices : StateMatrices
-        Of a stack of vehicles.
+        Matrices of a stack of vehicles.
     speeds : (float, float)
-        In m/s.
+        Range of speeds [m/s].
 
     Returns
     -------

@@ -6,20 +6,20 @@ from yawdamp_ros.analysis.study import Study
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 _HALVINGS = 50
-"""Of an edge of the grid: to a share of 1e-15 of it."""
+"""Bisections of an edge of the grid; they leave 1e-15 of its length."""
 
 
 def boundary_segments(study: Study, first: FloatArray, second: FloatArray) -> FloatArray:
     """Line on which the largest real part of the eigenvalues is 0.
 
-    Wherever stability changes along an edge of the grid, the place is found by bisection, of all edges at
-    once. The places on the edges of a cell are joined by straight segments; a boundary that enters and leaves
-    a cell by one edge goes unseen.
+    Bisection finds each place where stability changes along an edge of the grid, on all edges at once.
+    Straight segments join the places on the edges of a cell. A boundary that enters and leaves a cell by the
+    same edge is missed.
 
     Parameters
     ----------
     study : Study
-        Of two coordinates.
+        Study of two coordinates.
     first, second : ndarray, shape (a,) and (b,)
         The grid's values of each, rising or falling.
 
@@ -41,7 +41,7 @@ def boundary_segments(study: Study, first: FloatArray, second: FloatArray) -> Fl
     saddles = crossed.all(axis=-1)
     if saddles.any():
         middles = 0.25 * (corners[:-1, :-1] + corners[1:, :-1] + corners[:-1, 1:] + corners[1:, 1:])
-        # Where the middle is as the corner between left and below, that corner is not cut off.
+        # If the middle is as stable as the lower left corner, the boundary does not cut that corner off.
         joined = _unstable(study, middles[saddles]) == unstable[:-1, :-1][saddles]
         order = np.where(joined[:, np.newaxis], [[0, 1, 2, 3]], [[3, 0, 1, 2]])
         ends = np.take_along_axis(edges[saddles], order[..., np.newaxis], axis=1)

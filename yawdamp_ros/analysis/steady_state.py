@@ -20,7 +20,7 @@ class SteadyTurn:
     steering_angle : float
         Road-wheel steer angle over yaw rate, in s.
     lateral_velocity : float
-        Of the lead unit's centre of gravity over yaw rate, in m.
+        Lateral velocity of the lead unit's centre of gravity over yaw rate [m].
     articulation : ndarray, shape (n - 1,)
         Articulation angles over yaw rate, in s.
 
@@ -48,7 +48,7 @@ class Steering:
         Steer angle times radius at vanishing speed, in m. Of a two-axle vehicle it is the wheelbase; the
         tyres of an axle group scrub in a turn, which lengthens it.
     understeer_gradient : float
-        In rad/(m/s^2); positive is understeer.
+        Understeer gradient [rad/(m/s^2)]; positive is understeer.
 
     Examples
     --------
@@ -181,7 +181,7 @@ def static_gains(model: LinearModel) -> dict[str, float]:
     Returns
     -------
     dict of str to float
-        In the output's unit per rad. An unstable vehicle does not settle there.
+        Gains in the output's unit per rad. An unstable vehicle does not settle there.
 
     Raises
     ------

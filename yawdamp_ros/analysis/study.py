@@ -23,7 +23,7 @@ from yawdamp_ros.vehicle import Vehicle, load_stack, unstacked
 
 STABILITY = "stability"
 STUDIED = (STABILITY, *ALL_MEASURES)
-"""What a study may ask for: stability alone, or a measure beside it."""
+"""Answers that a study may ask for: stability alone, or a measure beside it."""
 
 LARGEST_REAL_PART = "largest_real_part"
 """Column of the largest real part of the eigenvalues, in 1/s; below 0 the vehicle is stable."""
@@ -39,16 +39,16 @@ class Study:
     Attributes
     ----------
     text : str
-        Of the vehicle file.
+        Text of the vehicle file.
     source : str
-        What errors call it.
+        Name of the file in error messages.
     overrides : tuple of str
-        Applied before the point's values.
+        Changes applied before the point's values.
     model : str
         One of `yawdamp_ros.dynamics.MODELS`, or ``nonlinear``: then the measure is by the nonlinear model,
         and the eigenvalues are those of `consistent`.
     keys : tuple of tuple of str
-        For every coordinate of a point the keys that take its value.
+        Keys that take the value of each coordinate of a point.
     measure : str
         One of `STUDIED`.
     """

@@ -71,7 +71,7 @@ def frontal_swing(vehicle: Vehicle) -> float:
 def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
     """Largest excess of a trailer's frontal swing over that of the unit ahead, at one place [m].
 
-    What does not swing out of the path of the outer front tyre counts as 0.
+    A unit that stays within the path of the outer front tyre counts as 0.
 
     Parameters
     ----------
@@ -211,12 +211,12 @@ def along_guide(turn: Turn, x: FloatArray, y: FloatArray) -> tuple[FloatArray, F
     ----------
     turn : Turn
     x, y : ndarray, shape (m,)
-        In m.
+        Coordinates [m].
 
     Returns
     -------
     way, inwards : ndarray, shape (m,)
-        In m.
+        Distances along the path and inwards [m].
 
     Examples
     --------
@@ -248,12 +248,12 @@ def on_guide(turn: Turn, way: FloatArray, inwards: FloatArray) -> tuple[FloatArr
     ----------
     turn : Turn
     way, inwards : ndarray, shape (m,)
-        In m.
+        Distances along the path and inwards [m].
 
     Returns
     -------
     x, y : ndarray, shape (m,)
-        In m.
+        Coordinates [m].
 
     Examples
     --------

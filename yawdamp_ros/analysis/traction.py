@@ -30,7 +30,7 @@ def startability(vehicle: Vehicle) -> float:
     Parameters
     ----------
     vehicle : Vehicle
-        With ``start_force``.
+        Vehicle with ``start_force``.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def gradeability(vehicle: Vehicle) -> float:
     Parameters
     ----------
     vehicle : Vehicle
-        With ``drive_force``.
+        Vehicle with ``drive_force``.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def gradeability_speed(vehicle: Vehicle) -> float:
     Parameters
     ----------
     vehicle : Vehicle
-        With ``drive_power`` and ``drive_force``.
+        Vehicle with ``drive_power`` and ``drive_force``.
 
     Returns
     -------
@@ -109,7 +109,7 @@ def acceleration_capability(vehicle: Vehicle) -> float:
     Parameters
     ----------
     vehicle : Vehicle
-        With ``drive_power`` and ``drive_force``.
+        Vehicle with ``drive_power`` and ``drive_force``.
 
     Returns
     -------

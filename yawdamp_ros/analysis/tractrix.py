@@ -24,7 +24,7 @@ from yawdamp_ros.vehicle.complete import is_dolly
 from yawdamp_ros.vehicle.shape import extent
 
 RADIUS = 12.5
-"""Of the path of the outer front tyre's outer wall in PBS's turn [m]."""
+"""Radius of the path of the outer front tyre's outer wall in PBS's turn [m]."""
 RIGHT_ANGLE = 0.5 * math.pi
 STEP = 0.05
 """Longest step of the guided tyre [m]; Runge-Kutta's error is below a micrometre."""
@@ -33,22 +33,22 @@ SAME = 1e-6
 
 
 class UnitGeometry(NamedTuple):
-    """A unit as the turn sees it; lengths from the middle of its unsteered axles, forward positive [m].
+    """Geometry of a unit in the turn; lengths from the middle of its unsteered axles, forward positive [m].
 
     Attributes
     ----------
     leader : float
-        Of the front hitch, or of the lead unit's foremost steered axle.
+        Position of the front hitch, or of the lead unit's foremost steered axle.
     hitch : float
-        Of the rear hitch; 0 where there is none.
+        Position of the rear hitch; 0 without one.
     front, rear : float
         Ends of the body.
     half_width : float
-        Of the body or the tyres, whichever are wider.
+        Half the width of the body or the tyres, whichever is wider.
     guide : float
-        From the middle to the outer wall of the steered tyre; 0 of a towed unit.
+        Distance from the middle to the outer wall of the steered tyre; 0 for a towed unit.
     body : bool
-        Whether it carries one: a dolly has none that swings.
+        Whether the unit has a body: a dolly has none that swings.
     """
 
     leader: float
@@ -66,17 +66,17 @@ class Turn(NamedTuple):
     Attributes
     ----------
     geometry : tuple of UnitGeometry
-        Of n units.
+        Geometry of n units.
     radius : float
-        Of the guided tyre's path [m], whose arc begins at the origin along x.
+        Radius of the guided tyre's path [m], whose arc begins at the origin along x.
     angle : float
-        Of the arc [rad].
+        Angle of the arc [rad].
     way : ndarray, shape (m,)
-        Of the guided tyre from the beginning of the arc [m].
+        Distance of the guided tyre from the beginning of the arc [m].
     yaw : ndarray, shape (m, n)
-        In rad.
+        Yaw angles [rad].
     position : ndarray of complex, shape (m, n)
-        Of the middles of the unsteered axles, x + i y [m].
+        Position of the middles of the unsteered axles, x + i y [m].
     steering : ndarray, shape (m,)
         Road-wheel angle of the steered axle in its middle [rad].
 
@@ -104,12 +104,12 @@ class Turn(NamedTuple):
         ----------
         unit : int
         forward, left : float
-            From the middle of its unsteered axles [m].
+            Position from the middle of its unsteered axles [m].
 
         Returns
         -------
         x, y : ndarray, shape (m,)
-            In m.
+            Coordinates [m].
         """
         point = self.position[:, unit] + complex(forward, left) * np.exp(1j * self.yaw[:, unit])
         return point.real, point.imag
@@ -123,11 +123,11 @@ def low_speed_turn(vehicle: Vehicle, radius: float = RADIUS, angle: float = RIGH
     Parameters
     ----------
     vehicle : Vehicle
-        Overhangs, widths and tracks that it does not give are assumed (`yawdamp_ros.vehicle.assumed`).
+        Vehicle; missing overhangs, widths and tracks are assumed (`yawdamp_ros.vehicle.assumed`).
     radius : float
-        Of the arc [m].
+        Radius of the arc [m].
     angle : float
-        Of the arc [rad].
+        Angle of the arc [rad].
 
     Returns
     -------

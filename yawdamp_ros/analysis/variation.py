@@ -56,7 +56,7 @@ class Variation:
         Returns
         -------
         callable
-            It raises what `parse_vehicle` and `linear_model` raise.
+            Function that raises the errors of `parse_vehicle` and `linear_model`.
         """
         text = vehicle_text(vehicle)
 

@@ -16,22 +16,22 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 BoolArray = npt.NDArray[np.bool_]
 
 PULSE_WIDTH = 0.5
-"""Of the steering pulse in s, as the manoeuvre `pulse` has it."""
+"""Width of the steering pulse [s], as in the manoeuvre `pulse`."""
 
 EXCITED = 0.02
-"""Share of the largest swing from which on a mode is excited. No standard that was readable names one."""
+"""Share of the largest swing above which a mode counts as excited. No accessible standard gives one."""
 
 FAINT = 0.001
-"""Share of the largest swing from which on a mode that is lighter than those excited is told."""
+"""Share of the largest swing above which a mode with less damping than the excited ones is reported."""
 
 _SMALLEST = 1e-9
-"""Extrema below this share of the largest are not used: the rounding of 1 is 1e-16."""
+"""Share of the largest extremum below which extrema are ignored: the rounding of 1 is 1e-16."""
 
 _RESOLVED = 1e-6
-"""Share of the whole decay from which on a swing is one, and not the rounding of what does not swing."""
+"""Share of the whole decay above which a swing counts as real and not as rounding."""
 
 _LARGEST_EXPONENT = 300.0
-"""Of a growth over the pulse: what outgrows all numbers grows as much as it takes."""
+"""Largest exponent of a growth over the pulse; a greater one would overflow."""
 
 _STEPS_PER_RADIAN = 100.0
 _DECAY_TIME = -math.log(_SMALLEST)
@@ -44,10 +44,10 @@ class ModesOfDecay(NamedTuple):
     Attributes
     ----------
     eigenvalues : ndarray of complex, shape (k, m)
-        In 1/s, of each of k vehicles.
+        Eigenvalues of each of k vehicles [1/s].
     residues : ndarray of complex, shape (k, n, m)
-        Of n signals at the end of a pulse of 1 rad: the last unit's yaw rate in rad/s, then the articulation
-        angles in rad.
+        Residues of n signals at the end of a pulse of 1 rad: the last unit's yaw rate [rad/s], then the
+        articulation angles [rad].
     """
 
     eigenvalues: ComplexArray
@@ -60,10 +60,9 @@ class ModesOfDecay(NamedTuple):
 
     @property
     def swinging(self) -> BoolArray:
-        """True where a mode swings, shape (k, m): the first of a pair whose next peak of its sign is seen.
+        """True for each mode that swings, shape (k, m): the first of a pair whose next peak is resolved.
 
-        Of two peaks of the same sign a critically damped pair, or one close to it, has the second below
-        rounding.
+        A critically damped pair, or one close to it, has its second peak of the same sign below rounding.
         """
         positive = self.eigenvalues.imag > 0.0
         frequency = np.where(positive, self.eigenvalues.imag, 1.0)
@@ -87,7 +86,7 @@ def modes_of_decay(model: LinearModel) -> ModesOfDecay:
     Parameters
     ----------
     model : LinearModel
-        Of a stack of k vehicles.
+        Model of a stack of k vehicles.
 
     Returns
     -------
@@ -109,24 +108,24 @@ def yaw_dampings(model: LinearModel) -> Answers:
     """Yaw damping coefficient of the Australian PBS scheme for a stack of vehicles.
 
     The scheme takes it from the mean ratio of successive peaks of the same sign, see `damping_of_peaks`. That
-    ratio tells the damping where one mode swings alone. Here the decay is split into its modes; those that
-    do not swing are left out: the coefficient is the lowest damping ratio of the modes that are excited in
-    the last unit's yaw rate, their swings at least `EXCITED` of the largest. Where one mode swings alone both
-    are the same.
+    ratio gives the damping if one mode swings alone. Here the decay is split into its modes, and modes that
+    do not swing are left out. The coefficient is the lowest damping ratio of the modes that are excited in
+    the last unit's yaw rate: their swings are at least `EXCITED` of the largest. If one mode swings alone,
+    both agree.
 
-    Where several are excited, peaks mix them, and the measure is ambiguous: the span reaches to the
+    If several modes are excited, the peaks mix them and the measure is ambiguous: the span reaches up to the
     highest damping ratio of an excited mode. It also reaches down to a mode that is faint in the yaw rate
     (`FAINT`), or excited in an articulation angle alone.
 
     Parameters
     ----------
     model : LinearModel
-        Of a stack of vehicles.
+        Model of a stack of vehicles.
 
     Returns
     -------
     Answers
-        Negative where a swing grows, -1 where the motion grows without swinging.
+        Damping coefficients; negative if a swing grows, -1 if the motion grows without swinging.
     """
     decay = modes_of_decay(model)
     ratios, swings = decay.damping_ratios, decay.swings
@@ -244,7 +243,7 @@ def pulse_decay(model: LinearModel) -> FloatArray:
     eigenvalues = np.linalg.eigvals(model.state_matrix)
     step = 1.0 / (_STEPS_PER_RADIAN * float(np.abs(eigenvalues).max()))
     growing = float(eigenvalues.real.max())
-    # Nothing lasts beside what grows: waiting for the slowest would be waiting past all numbers.
+    # A growing mode dominates in the end: waiting for the slowest decay would overflow.
     slowest = growing if growing > 0.0 else float(np.abs(eigenvalues.real).min())
     slowest = max(slowest, _DECAY_TIME / (step * _MOST_STEPS))
     count = math.ceil(_DECAY_TIME / (slowest * step)) + 1
@@ -275,7 +274,7 @@ def _least(ratios: FloatArray, chosen: BoolArray) -> FloatArray:
 def _solved(shapes: ComplexArray, vectors: FloatArray) -> ComplexArray:
     """Amplitudes of the modes that add up to a vector, of each of k vehicles."""
     singular = np.linalg.det(shapes) == 0.0
-    # Two modes of one shape: whichever of the two has it, their sum is the same.
+    # Two modes of one shape: their sum is the same, whichever of them takes the share.
     regular = np.where(singular[:, np.newaxis, np.newaxis], np.eye(shapes.shape[-1]), shapes)
     found = np.linalg.solve(regular, vectors[..., np.newaxis].astype(np.complex128))[..., 0]
     for index in np.flatnonzero(singular):

@@ -80,11 +80,11 @@ class Channel:
         A quantity of `QUANTITIES`, after ``<unit>/`` where the log tells the unit of the vehicle;
         articulation angles are ``articulation_1`` onwards.
     source : str
-        Where in the log it was found, and how it was converted.
+        Place in the log, and the conversion that was applied.
     times : ndarray, shape (m,)
-        In s from the start of the drive, not decreasing.
+        Times from the start of the drive [s], not decreasing.
     values : ndarray, shape (m,)
-        Finite.
+        Values, all finite.
 
     Examples
     --------

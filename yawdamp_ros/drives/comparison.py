@@ -31,7 +31,7 @@ class ChannelComparison:
         As in ``truck/yaw_rate``.
     unit : str
     times, measured, simulated : ndarray, shape (m,)
-        At the times of the measurement, s and SI units.
+        Times of the measurement [s], and both signals there in SI units.
     bias : float
         Mean of measured less simulated.
     gain : float
@@ -39,11 +39,11 @@ class ChannelComparison:
     lag : float
         Time in s by which the measured signal follows the simulated one, where they correlate best.
     rms_error, rms_measured, rms_simulated : float
-        Of measured less simulated, and of each signal.
+        Root mean square of measured minus simulated, and of each signal.
     r_squared : float
         Share of the measured variance that the simulation explains as it is; not a number of a constant.
     noise : float
-        Standard deviation of what changes from sample to sample as no vehicle does: the noise floor.
+        Noise floor: standard deviation of changes from sample to sample that are too fast for a vehicle.
     attainable : float
         R2 that a perfect model would reach with that noise.
     frequencies, coherence : ndarray, shape (k,)
@@ -91,13 +91,13 @@ class Excitation:
     Attributes
     ----------
     steering_rms : float
-        Of the road-wheel angle about its mean, rad.
+        Root mean square of the road-wheel angle about its mean [rad].
     steering_bandwidth : float
         Frequency in Hz below which 95 % of its power about the mean lies.
     lowest_speed, highest_speed : float
-        In m/s.
+        Range of the speed [m/s].
     duration : float
-        In s.
+        Duration [s].
 
     Examples
     --------
@@ -122,7 +122,7 @@ def compare_channel(match: Match, times: FloatArray, values: FloatArray) -> Chan
     ----------
     match : Match
     times, values : ndarray, shape (k,)
-        Of the simulated signal, in s and the channel's unit.
+        Simulated signal: times [s], and values in the channel's unit.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def compare(
     ----------
     matched : list of Match
     times : ndarray, shape (k,)
-        Of the outputs, in s.
+        Times of the outputs [s].
     outputs : mapping of str to ndarray, shape (k,)
 
     Returns
@@ -253,7 +253,7 @@ def _slope(simulated: FloatArray, measured: FloatArray) -> float:
 
 
 def _noise(values: FloatArray) -> float:
-    # What moves slowly has nearly no third difference; that of white noise has 20 times its variance.
+    # A slow signal has nearly no third difference; that of white noise has 20 times its variance.
     differences = np.diff(values, n=3)
     return float(np.sqrt(np.mean(differences**2) / 20.0)) if len(differences) else 0.0
 

@@ -45,13 +45,13 @@ class Drive:
     source : str
         File it came from.
     channels : mapping of str to Channel
-        By name.
+        Channels by name.
     start_time : int
         Time in ns at which the channels' time is 0, where the log knows; else 0.
     notes : tuple of str
-        What was left out of the log, and why.
+        Data of the log that was left out, with the reason.
     warning : str
-        What is wrong with the file, though these channels could be read; else empty.
+        Fault of the file that did not prevent reading; else empty.
 
     Examples
     --------

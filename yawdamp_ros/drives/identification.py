@@ -27,15 +27,15 @@ FITTED = ("yaw_rate", "lateral_acceleration", "articulation")
 OFFSET_SPREAD: Mapping[str, float] = MappingProxyType(
     {"yaw_rate": 0.01, "lateral_acceleration": 0.3, "articulation": 0.02}
 )
-"""Standard deviation that is expected of a sensor's offset, which is estimated, too."""
+"""Standard deviation expected of a sensor's offset; the offset is estimated, too."""
 FITTED_SHARE = 2.0 / 3.0
-"""Of the drive; the rest is kept to check the result on."""
+"""Share of the drive that is fitted; the rest checks the result."""
 SETTLING = 5.0
-"""In s at the start that are left out: how the vehicle moved before is not known."""
+"""Time left out at the start [s]: the motion before the drive is unknown."""
 QUANTILE = 1.959963984540054
 """Standard errors from the middle of a 95 % interval to its ends."""
 SENSOR_OFFSET = "offset of "
-"""Begins the name of what a sensor shows when there is nothing to be measured."""
+"""Prefix of the name of a sensor's offset."""
 CLOSE = 0.98
 """Correlation from which two parameters cannot be told apart."""
 
@@ -79,7 +79,7 @@ class Identification:
     estimates : tuple of Estimate
         First those asked for, then ``offset of <output>`` of every sensor.
     correlations : ndarray, shape (p, p)
-        Between the estimates.
+        Correlations between the estimates.
     fitted, checked : list of ChannelComparison
         Model and measurement, less the sensors' offsets, on the part that was fitted and on the rest.
     before : list of ChannelComparison
@@ -89,7 +89,7 @@ class Identification:
     overrides : list of str
         Changes to the vehicle file that make it the identified vehicle.
     notes : tuple of str
-        What was left out.
+        Data that was left out, with the reason.
 
     Examples
     --------
@@ -174,15 +174,15 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
     ----------
     drive : Drive
     source : VehicleSource
-        What the vehicle is read from.
+        Source of the vehicle.
     parameters : sequence of str
         As `Subject` takes them.
     speed : float, optional
-        In m/s, where the drive does not tell; the vehicle's own unless given.
+        Speed for a drive without one [m/s]; the vehicle's own unless given.
     predictor : callable
         The model.
     fitted_share : float
-        Of the drive, from its start.
+        Share of the drive that is fitted, from its start.
 
     Returns
     -------

@@ -12,15 +12,15 @@ from yawdamp_ros.drives.parameters import Parameter
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 DIFFERENCE = 1e-5
-"""Of a coordinate, for derivatives."""
+"""Step of a coordinate for numerical derivatives."""
 MOST_ROUNDS = 6
-"""Of fitting parameters and noise in turn."""
+"""Limit on the rounds that fit parameters and noise in turn."""
 MOST_SAMPLES = 40_000
-"""Of a series; of a longer one, means of so many neighbours are fitted."""
+"""Limit on the samples of a series; a longer series is fitted by means over neighbours."""
 WIDE = 3.0
 """Standard deviation of a coordinate before the drive: it keeps what the drive does not show finite."""
 LAGS = 200
-"""Over which the robust intervals look for correlation that the noise model left."""
+"""Lags at which the robust intervals look for correlation that the noise model left."""
 
 
 class Series(NamedTuple):
@@ -44,7 +44,7 @@ class Fit(NamedTuple):
     Attributes
     ----------
     coordinates : ndarray, shape (p,)
-        Of the parameters, then the offset of every series.
+        Coordinates of the parameters, then the offset of every series.
     errors : ndarray, shape (p,)
         Standard errors of the coordinates.
     correlations : ndarray, shape (p, p)
@@ -119,7 +119,7 @@ class _Problem:
         self._spreads = spreads
         self._series = series
         self._groups = _together(series)
-        # What was computed last, and where: the same place is asked for more than once.
+        # Results of the last place: the same place is asked for more than once.
         self._known: tuple[FloatArray, list[FloatArray]] | None = None
         self._slopes: tuple[FloatArray, list[FloatArray]] | None = None
 

@@ -7,9 +7,9 @@ import numpy as np
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 ORDERS = (0, 1, 2, 3, 5, 8, 13, 21, 34, 55)
-"""Of the autoregression, of which Akaike's criterion and `GENEROSITY` take one."""
+"""Candidate orders of the autoregression; Akaike's criterion and `GENEROSITY` select one."""
 GENEROSITY = 2.5
-"""Times the order that predicts best: parameters rest on slow noise, which an autoregression tells last."""
+"""Factor on the order that predicts best: slow noise matters to parameters and needs a high order."""
 
 
 class NoiseModel(NamedTuple):
@@ -94,7 +94,7 @@ def fitted(residuals: FloatArray) -> NoiseModel:
     covariances: list[FloatArray] = [
         residuals[lag:].T @ residuals[: count - lag] / count for lag in range(lags + 1)
     ]
-    # What is constant has no noise: a little keeps the equations regular.
+    # A constant series has no noise: a small value keeps the equations regular.
     covariances[0] = covariances[0] + 1e-12 * np.eye(size) * max(float(np.trace(covariances[0])), 1e-300)
     models = [_yule_walker(covariances, order) for order in orders]
     criteria = [

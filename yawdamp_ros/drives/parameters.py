@@ -66,9 +66,9 @@ class Subject:
     Parameters
     ----------
     source : VehicleSource
-        What the vehicle is read from.
+        Source of the vehicle.
     names : sequence of str
-        Of the parameters to be found.
+        Names of the parameters to be identified.
 
     Raises
     ------

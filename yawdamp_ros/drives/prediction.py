@@ -30,13 +30,13 @@ class Inputs(NamedTuple):
     Attributes
     ----------
     times : ndarray, shape (k,)
-        In s.
+        Times [s].
     steering : ndarray, shape (k,)
         Road-wheel steer angle in force at each instant, rad.
     mean_steering : ndarray, shape (k,)
-        Its mean from each instant to the next, rad.
+        Mean steering from each instant to the next [rad].
     speed : ndarray, shape (k,)
-        In m/s.
+        Speed [m/s].
 
     Examples
     --------
@@ -61,9 +61,9 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: f
     ----------
     drive : Drive
     speed : float
-        In m/s, where the drive does not tell; also at the start, where it tells the acceleration.
+        Speed for a drive without one [m/s]; the initial speed for a drive with the acceleration.
     step_size : float
-        In s.
+        Step size [s].
     delay : float, optional
         Time in s by which the steering acts later than its stamps say, or earlier. If one is given the
         angle at an instant is interpolated, so that what is predicted is a smooth function of the delay.
@@ -156,7 +156,7 @@ class _Family(NamedTuple):
 
     @classmethod
     def of(cls, vehicle: Vehicle, low: float, high: float, model: str) -> "_Family":
-        # Three speeds tell the three parts; they lie apart, also where the drive keeps to one speed.
+        # Three speeds determine the three parts; they differ even if the drive keeps one speed.
         speeds = np.array([0.8 * low, np.sqrt(low * high), 1.25 * high])
         models = [linear_model(vehicle, float(speed), model) for speed in speeds]
         basis = np.linalg.inv(_basis(speeds))
