@@ -28,7 +28,7 @@ class InputReading(NamedTuple):
     Attributes
     ----------
     value : float or None
-        In force; None where nothing is demanded.
+        Value in force; None if nothing is demanded.
     age : float or None
         Simulated time since the last one [s]; None before the first.
     counts : mapping of Verdict to int
@@ -53,7 +53,7 @@ class Readings(NamedTuple):
         Since the last look [s].
     steps_dropped : int
     simulated_time : float
-        In s.
+        Simulated time [s].
     paused : bool
     steering_age : float or None
         Simulated time since the last command [s]; None before the first.
@@ -65,21 +65,21 @@ class Readings(NamedTuple):
     inputs : mapping of str to InputReading
         Inputs besides steering, by topic.
     neighbourhood : Neighbourhood
-        Who publishes on the inputs.
+        Publishers of the inputs.
     recorder : RecorderState
     recorder_detail : str
-        Directory that is recorded to, or why it is not recorded.
+        Directory of the recording, or the reason that there is none.
     messages_lost : int
-        By the recorder.
+        Number of messages that the recorder lost.
     least_damping_ratio : float
     beyond : str
-        Where the run left the linear range since the last look; empty if it did not.
+        Excess of the linear range since the last report; empty if there is none.
     speed : float
-        In m/s.
+        Speed [m/s].
     callback_failures : int
-        Errors that callbacks of the node ended in.
+        Number of callbacks of the node that ended in an error.
     events : tuple of str
-        What happened to the vehicle so far, each with its simulated time.
+        Events of the vehicle so far, each with its simulated time.
     """
 
     samples: int
@@ -132,7 +132,7 @@ class Diagnosis:
         elapsed : float
             Time since the last look [s].
         stamp : int
-            In ns.
+            Time stamp [ns].
 
         Returns
         -------

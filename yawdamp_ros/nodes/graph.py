@@ -53,7 +53,7 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
         raise NodeError(_first_line(error)) from error
     finally:
         set_logger_level("rcl", LoggingSeverity.UNSET)
-    # What rclpy adds where a node cannot be made, and the error says.
+    # rclpy adds this warning if a node cannot be made; the error already says so.
     warnings.filterwarnings("ignore", "Failed to fini", RuntimeWarning)
     try:
         yield
@@ -77,7 +77,7 @@ def _check_domain(given: str) -> None:
 def join(name: str, overrides: Mapping[str, Any]) -> Node:
     """Put a node on the graph, with parameters that win over those of the command line's ``--ros-args``.
 
-    What was given is declared, so that `declare_parameters` can see what nobody else declares.
+    The given parameters are declared, so that `declare_parameters` can find those that nobody else declares.
     """
     parameters = [Parameter(parameter, value=value) for parameter, value in overrides.items()]
     level = get_logger_level("")
@@ -124,8 +124,8 @@ def wait_for_subscribers(publishers: Iterable[Publisher]) -> None:
 def _wake(executor: SingleThreadedExecutor, ended: threading.Event) -> None:
     """End the executor's waits again and again.
 
-    Where Fast DDS is built for an old glibc, as on PyPI, it waits by the system's clock: a wait in which that
-    clock jumps back would last until something happens, or as long as the jump. Python's go by a steady one.
+    Fast DDS built for an old glibc, as on PyPI, waits by the system's clock. If that clock jumps back during
+    a wait, the wait lasts until something happens, or as long as the jump. Python waits by a steady clock.
     """
     while not ended.wait(SPIN_PERIOD):
         executor.wake()
@@ -147,7 +147,7 @@ def spinning(node: Node) -> Iterator[None]:
     try:
         yield
     finally:
-        # A shutdown in mid-spin can take the guard away before the wait that is to end by it.
+        # A shutdown in mid-spin can destroy the guard before it ends the wait.
         ended.set()
         executor.wake()
         thread.join()
@@ -160,5 +160,5 @@ def _is_of_rclpy(error: RuntimeError) -> bool:
 
 
 def _first_line(error: Exception) -> str:
-    # rcl appends where in its sources it was.
+    # rcl appends its source location.
     return (str(error).splitlines() or [type(error).__name__])[0].partition(", at /")[0]

@@ -20,7 +20,7 @@ class Guard:
     Parameters
     ----------
     node : Node
-        In whose log errors go.
+        Node that logs the errors.
 
     Attributes
     ----------

@@ -21,15 +21,15 @@ CUT_OFF = (
 
 
 class Finding(NamedTuple):
-    """Something that does not fit.
+    """Mismatch between the node and its neighbours.
 
     Attributes
     ----------
     problem : Problem
     sentence : str
-        With the topic and who is on it.
+        Sentence with the topic and its publishers.
     topic : str
-        Input that it is about; empty of what is about the node.
+        Input concerned; empty if the node is concerned.
     """
 
     problem: Problem
@@ -38,14 +38,14 @@ class Finding(NamedTuple):
 
 
 class Neighbourhood(NamedTuple):
-    """Findings of one look at the graph.
+    """Findings of one inspection of the graph.
 
     Attributes
     ----------
     publishers : int
-        On the inputs, heard or not.
+        Number of publishers on the inputs, matched or not.
     findings : tuple of Finding
-        On the inputs.
+        Findings on the inputs.
     """
 
     publishers: int
@@ -111,7 +111,7 @@ def heard(
     expected : str
         Message type of the node's subscription.
     qos : QoSProfile
-        Of the node's subscription.
+        Quality of service of the node's subscription.
     publishers : sequence of TopicEndpointInfo
 
     Returns
@@ -189,7 +189,7 @@ def endpoint_name(endpoint: TopicEndpointInfo) -> str:
 def is_cut_off(descriptors: Path = DESCRIPTORS) -> bool:
     """True if files that this process holds for Fast DDS are gone, as when /dev/shm is cleaned.
 
-    Where that cannot be told, without /proc or a free descriptor, they count as there.
+    Without /proc or a free descriptor the files cannot be checked and count as present.
     """
     with suppress(OSError):
         for descriptor in descriptors.iterdir():

@@ -23,24 +23,24 @@ NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
 
 
 class Topics:
-    """Publishers of everything that a sample becomes.
+    """Publishers of all messages of a sample.
 
     Parameters
     ----------
     node : Node
     vehicle : Vehicle
     encoder : Encoder
-        Whose messages they publish.
+        Encoder of the messages to publish.
     settings : SimParameters
     events : bool
-        Whether the model knows of any.
+        Whether the model has events.
 
     Attributes
     ----------
     names : list of str
-        Fully qualified, of what the encoder serialises.
+        Fully qualified names of the topics that the encoder serialises.
     without_tf : str
-        Why there are no frames on ``/tf``; empty if there are.
+        Reason for missing frames on ``/tf``; empty if they are published.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class Topics:
         self._vehicle = vehicle
         self._frame_prefix = settings.frame_prefix
         self._publishers = [
-            # Without event handlers, each of which the executor puts into a wait set at every wake-up.
+            # No event handlers: the executor would add each to a wait set at every wake-up.
             node.create_publisher(message_class(kind), topic, QUEUE_DEPTH, event_callbacks=NO_EVENTS)
             for topic, kind in encoder.types.items()
         ]

@@ -43,7 +43,7 @@ def misfit(path: Path, node_name: str) -> str:
     Parameters
     ----------
     path : Path
-        One that rclpy has read.
+        Parameter file that rclpy has read.
     node_name : str
         Fully qualified.
 

@@ -67,7 +67,7 @@ def declare_derived(node: Node, values: Mapping[str, Any]) -> None:
     ----------
     node : Node
     values : mapping of str to object
-        In force, by name.
+        Values in force, by name.
     """
     for name, value in values.items():
         if not node.has_parameter(name):
@@ -81,7 +81,7 @@ def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimPara
     ----------
     settings : SimParameters
     parameters : iterable of Parameter
-        Those of other names are left to rclpy.
+        Parameters; those with other names are left to rclpy.
 
     Returns
     -------

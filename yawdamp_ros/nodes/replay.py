@@ -28,7 +28,7 @@ class ReplayNode(Node):
     Parameters
     ----------
     log : SteeringLog
-        In the angles to publish, rad.
+        Log with the angles to publish [rad].
     rate : float
         Speed of the replay: 2 is twice as fast as recorded.
     stop : StopRequest
@@ -38,7 +38,7 @@ class ReplayNode(Node):
     Attributes
     ----------
     lateness, worst_lateness : float
-        Of the last sample and of the latest, after its deadline, in s.
+        Delay after the deadline of the last sample, and the largest delay so far [s].
     """
 
     def __init__(self, log: SteeringLog, rate: float, stop: StopRequest, *, publish_clock: bool) -> None:
@@ -64,7 +64,7 @@ class ReplayNode(Node):
         while self._publisher.get_subscription_count() == 0:
             if self._stop.wait(POLL):
                 return False
-        # This side has found the subscriber, but that need not have found this side yet.
+        # The subscriber may not have discovered this publisher yet.
         return not self._stop.wait(SETTLING)
 
     def play(self, progress: Callable[[float], None], *, loop: bool) -> None:
@@ -93,7 +93,7 @@ class ReplayNode(Node):
                 if self._paused.is_set():
                     start += self._wait_while_paused()
                 delay = start + at / self._rate - time.monotonic()
-                # A long wait is taken in parts, so that a pause within it is seen.
+                # A long wait is split, so that a pause during it acts.
                 if delay <= 0.0 or self._stop.wait(min(delay, POLL)):
                     break
             if self._stop.requested:

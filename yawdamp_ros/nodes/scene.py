@@ -12,7 +12,7 @@ from yawdamp_ros.vehicle import Vehicle
 from yawdamp_ros.vehicle.shape import HEIGHT, WIDTH, extent
 
 COLOURS = ((0.0, 0.45, 0.70), (0.84, 0.37, 0.0), (0.0, 0.62, 0.45), (0.80, 0.47, 0.65))
-"""Of units, front to rear and over again; told apart by the colour-blind, too."""
+"""Colours of the units from front to rear, repeated; colour-blind readers can tell them apart."""
 
 
 def markers(vehicle: Vehicle, sample: Sample, stamp: int, prefix: str) -> MarkerArray:

@@ -36,7 +36,7 @@ class Server:
     ----------
     node : Node
     simulator : Simulator
-        Its first sample is published.
+        Simulator whose first sample is published.
 
     Attributes
     ----------
@@ -69,9 +69,9 @@ class Server:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(DIAGNOSTICS_PERIOD, guard(self._diagnose), clock=steady)
         self._looked_at = time.monotonic_ns()
-        # The pacer comes before the timer, so that a period is over whenever the timer fires.
+        # The pacer is made before the timer, so that a period is over when the timer fires.
         rate = simulator.settings.real_time_factor
-        # Half of what is made up for: a start that took longer shows as a jump of the stamps.
+        # Half of the time that is caught up: a slower start shows as a jump of the stamps.
         since = max(simulator.started_at, time.monotonic_ns() - CATCH_UP_NS // 2)
         self._pacer = Pacer(simulator.grid.period_ns, rate, since)
         self._waiting = simulator.settings.wait_for_command
@@ -96,7 +96,7 @@ class Server:
                 throttle_duration_sec=WARNING_PERIOD,
                 throttle_time_source_type=STEADY,
             )
-        # The first of them was due so long ago; the others lie on the grid behind it.
+        # Due time of the first sample; the others follow on the grid.
         first_due = None if clock is None else clock - round(due.lateness)
         for index in range(due.periods):
             if self._simulator.finished:
@@ -186,7 +186,7 @@ class Server:
         self._diagnostics.publish(self._diagnosis.of(self._readings(), elapsed, time.time_ns()))
         self._worst_lateness = 0.0
         if self._pacer.paused and self._simulator.run.samples == 1:
-            # Whoever waits for a sample before it commands would wait for ever.
+            # A controller that waits for a sample before its first command would wait for ever.
             self._simulator.topics.repeat()
         self._tell_silence()
         self._tell_speed()

@@ -28,7 +28,7 @@ class Simulator:
     Parameters
     ----------
     node : Node
-        What it declares its parameters on, listens by and publishes by.
+        Node with the parameters, the subscriptions and the publishers.
 
     Raises
     ------

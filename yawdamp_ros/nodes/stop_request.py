@@ -30,7 +30,7 @@ class StopRequest:
         self._wake, self._alarm = os.pipe()
         os.set_blocking(self._alarm, False)
         self._former_wakeup = signal.set_wakeup_fd(self._alarm, warn_on_full_buffer=False)
-        # Under nohup a hang-up is to be ignored.
+        # nohup asks to ignore a hang-up.
         wanted = [number for number in _SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
         self._former_handlers = {number: signal.signal(number, self._request) for number in wanted}
         return self

@@ -23,9 +23,9 @@ from yawdamp_ros.stepping.time_grid import SECOND
 WARNING_PERIOD = 5.0
 """Seconds between warnings of one kind."""
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
-"""What rclpy is to throttle by: by the system's clock, a jump back silences it for as long as the jump."""
+"""Clock of rclpy's throttling: a jump back of the system's clock would silence it for as long as the jump."""
 QUIET = SubscriptionEventCallbacks(use_default_callbacks=False)
-"""What does not fit is said by `Neighbours`, which knows whose it is."""
+"""No callbacks of rclpy: `Neighbours` reports a mismatch and names the other node."""
 
 
 def steering_class(type_name: str) -> Any:  # noqa: ANN401 - generated classes share no base
@@ -105,7 +105,7 @@ class SteeringSubscription:
             self._warn(verdict, f"{command}{stamped}: {VERDICT_SENTENCES[verdict]}, {count} so far")
 
     def _warn(self, kind: Verdict, text: str) -> None:
-        # rclpy throttles by line of code; of two kinds of trouble neither may hide the other.
+        # rclpy throttles by line of code; one kind of warning must not hide the other.
         now = time.monotonic()
         if now - self._warned_at.get(kind, -WARNING_PERIOD) >= WARNING_PERIOD:
             self._warned_at[kind] = now
@@ -151,7 +151,7 @@ class InputSubscription:
 
 def _drain(subscription: Any, receive: Callable[[Any], None]) -> None:  # noqa: ANN401 - rclpy's
     """Hand over what has arrived."""
-    # As rclpy's executor takes: it has no public call for it. Without, commands wait for the executor.
+    # Same call as in rclpy's executor, which has no public one. Without it, commands wait for the executor.
     if not hasattr(subscription.handle, "take_message"):
         return
     for _ in range(QUEUE_DEPTH):

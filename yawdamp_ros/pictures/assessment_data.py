@@ -39,7 +39,7 @@ def vehicle_tables(vehicle: Vehicle) -> list[dict[str, object]]:
     Returns
     -------
     list of dict
-        With title, columns and rows of text.
+        Tables, each with title, columns and rows of text.
 
     Examples
     --------

@@ -31,10 +31,10 @@ from yawdamp_ros.pictures.page import page_text
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, Unit, Vehicle
 
 OVERHANG = 1.1
-"""Of a unit's drawn outline past its outermost axle or hitch, in m."""
+"""Overhang of a unit's drawn outline past its outermost axle or hitch [m]."""
 
 LARGEST_YAW = 0.22
-"""Of a unit in the picture of a mode, in rad."""
+"""Largest yaw of a unit in the picture of a mode [rad]."""
 
 EVERY = 8
 """Samples of the lane change from one frame to the next."""
@@ -75,7 +75,7 @@ def assessment_page(
     Parameters
     ----------
     assessments : sequence of Assessment
-        By one scheme and one linear model. The lane change, the curves and the modes are those of the first.
+        Assessments by one scheme and one linear model. The first gives the lane change, curves and modes.
     heading : Heading, optional
     units : str
         One of `yawdamp_ros.analysis.engineering.SYSTEMS`.

@@ -11,11 +11,11 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.pictures.page import page_text
 
 MOST_POINTS = 4000
-"""Of one curve; of a longer one every so many samples are drawn."""
+"""Limit on the points of a curve; a longer one is thinned out evenly."""
 FIGURES = 5
-"""Significant, of a point."""
+"""Significant figures of a point."""
 HIGHEST_FREQUENCY = 5.0
-"""Of a coherence that is drawn, Hz."""
+"""Highest frequency of a drawn coherence [Hz]."""
 
 DEFINITIONS: Mapping[str, str] = MappingProxyType(
     {
@@ -63,7 +63,7 @@ def drive_page(
     tables : sequence of PageTable
     notes : sequence of str
     comparisons : sequence of (str, sequence of ChannelComparison)
-        Each part of the drive with its name; its curves lie over each other.
+        Parts of the drive, each with its name; the curves of a part are overlaid.
 
     Returns
     -------

@@ -15,7 +15,7 @@ def locus_figure(locus: Locus, parameter: str) -> Figure:
     ----------
     locus : Locus
     parameter : str
-        What varies, for the labels.
+        Name of the varied parameter, for the labels.
 
     Returns
     -------

@@ -23,10 +23,10 @@ def page_text(template: str, title: str, data: Mapping[str, object]) -> str:
     Parameters
     ----------
     template : str
-        Its file's name.
+        File name of the template.
     title : str
     data : mapping
-        What the template's script draws, of what JSON holds.
+        Data for the template's script, of types that JSON can hold.
 
     Returns
     -------

@@ -25,7 +25,7 @@ class Curve(NamedTuple):
     Attributes
     ----------
     name : str
-        Of the unit or the joint.
+        Name of the unit or the joint.
     run : int
         Index of the run.
     colour : str
@@ -92,7 +92,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
     Parameters
     ----------
     runs : sequence of (str, Response)
-        Each with the name it is called by; a response whose x and y are not finite gets no path.
+        Runs, each with its name; a response whose x and y are not finite gets no path.
 
     Returns
     -------
@@ -167,7 +167,7 @@ def _named(
         return unit_names, [colours[unit] for unit in unit_names]
     if output.of is Of.JOINT:
         joints = range(len(unit_names) - 1)
-        # Backwards from black, away from the colours of the units.
+        # From black backwards, to stay away from the colours of the units.
         names = [f"{output.description} {joint + 1}" for joint in joints]
         return names, [COLOURS[-1 - joint % len(COLOURS)] for joint in joints]
     return [output.description], [COLOURS[-1]]

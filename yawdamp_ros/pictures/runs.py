@@ -11,9 +11,9 @@ from yawdamp_ros.pictures.run_panels import Panel, bands, run_panels
 from yawdamp_ros.stepping import Response
 
 SHADE = "#f3e3dc"
-"""Beyond the linear range."""
+"""Colour of the time beyond the linear range."""
 MARK = "#a02020"
-"""Of what happened to the vehicle."""
+"""Colour of the vehicle's events."""
 NOTE: dict[str, Any] = {
     "rotation": 90,
     "fontsize": 6,
@@ -69,7 +69,7 @@ def runs_figure(runs: Sequence[tuple[str, Response]]) -> Figure:
 
 
 def _add_legend(figure: Figure, names: Sequence[str], panels: Sequence[Panel]) -> None:
-    # What the first panel shows its label says.
+    # The label of the first panel says what it shows.
     colours = {curve.name: curve.colour for panel in panels[1:] for curve in panel.curves}
     handles = [Line2D([], [], color=colour, label=name) for name, colour in colours.items()]
     if len(names) > 1:
@@ -78,6 +78,6 @@ def _add_legend(figure: Figure, names: Sequence[str], panels: Sequence[Panel]) -
             for name, dashes in zip(names, DASHES, strict=False)
         ]
     elif names:
-        # Names are no formulas, whatever signs are in them.
+        # Names are text, not formulas, whatever characters they contain.
         figure.suptitle(names[0], fontsize="medium", parse_math=False)
     add_legend(figure, min(len(handles), 6), handles)

@@ -14,11 +14,11 @@ BEYOND = "beyond the linear range"
 MARK = "#a02020"
 """Colour of what happened to the vehicle."""
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
-"""One a run."""
+"""Line styles, one for each run."""
 MOST_SAMPLES = 20_000
-"""Of one curve: a browser draws no more in a moment."""
+"""Limit on the samples of a curve: a browser cannot draw more at once."""
 PANEL_HEIGHT = 280
-"""In pixels."""
+"""Height of a panel in pixels."""
 
 PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -42,7 +42,7 @@ h1, p {{ margin: 1rem; font-size: 1rem }}
 def runs_page(runs: Sequence[tuple[str, Response]]) -> str:
     """Draw the panels of runs on a page that needs nothing else.
 
-    Of a long run the curves show every so many samples, which the page says.
+    The curves of a long run are thinned out evenly; the page says so.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def runs_page(runs: Sequence[tuple[str, Response]]) -> str:
         for time, what in panel.marks:
             label = {"annotation_text": what, "annotation_textangle": -90} if row == 1 else {}
             figure.add_vline(x=time, line={"color": MARK, "dash": "dot", "width": 1}, row=row, col=1, **label)
-        # All that is over time is zoomed into together.
+        # All panels over time zoom together.
         zoomed = "x" if row > 1 and panel.x_label == panels[0].x_label else None
         figure.update_xaxes(title_text=panel.x_label, matches=zoomed, row=row, col=1)
         figure.update_yaxes(title_text=panel.y_label, row=row, col=1)
@@ -102,7 +102,7 @@ def runs_page(runs: Sequence[tuple[str, Response]]) -> str:
         include_plotlyjs=True,
         include_mathjax=False,
         div_id="runs",
-        # A run stays with whoever looks at it: no button sends it anywhere.
+        # Runs are private: no button uploads one.
         config={"displaylogo": False, "responsive": True, "showSendToCloud": False, "plotlyServerURL": ""},
     )
     thinned = [

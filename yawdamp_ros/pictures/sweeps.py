@@ -19,7 +19,7 @@ def curve_figure(axis: Variation, values: FloatArray, name: str, boundaries: Seq
     axis : Variation
     values : ndarray, shape (k,)
     name : str
-        Of what is drawn.
+        Name of the drawn quantity.
     boundaries : sequence of Boundary
 
     Returns
@@ -47,9 +47,9 @@ def map_figure(axes: tuple[Variation, ...], values: FloatArray, name: str, segme
     values : ndarray, shape (a b,)
         The second parameter varying fastest.
     name : str
-        Of what is drawn.
+        Name of the drawn quantity.
     segments : ndarray, shape (s, 2, 2)
-        Of the boundary of stability.
+        Segments of the boundary of stability.
 
     Returns
     -------

@@ -25,11 +25,11 @@ def swept_figure(name: str, response: Response, vehicle: Vehicle) -> Figure:
     Parameters
     ----------
     name : str
-        Of the run.
+        Name of the run.
     response : Response
-        With x and y.
+        Response with x and y.
     vehicle : Vehicle
-        That made it; widths and overhangs that it does not give are assumed.
+        Vehicle of the run; missing widths and overhangs are assumed.
 
     Returns
     -------

@@ -81,7 +81,7 @@ def root_locus_figure(function: TransferFunction) -> Figure:
         If python-control is not installed.
     """
     control, system = _system(function)
-    # Gains given, because python-control's own choice fails for an output that starts the wrong way.
+    # Gains are given, because python-control's own choice fails for an output with an inverse response.
     largest = max(abs(function(2j * np.pi * hertz)) for hertz in FREQUENCIES)
     loci = control.root_locus_map(system, gains=np.concatenate([[0.0], GAINS / largest]))
     figure = new_figure(7.0, 5.6)

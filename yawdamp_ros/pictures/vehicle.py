@@ -12,7 +12,7 @@ from yawdamp_ros.vehicle import STANDARD_GRAVITY, Axle, Unit, Vehicle, assumed, 
 from yawdamp_ros.vehicle.shape import extent
 
 TYRE_RADIUS = 0.5
-"""Of every tyre in m, as vehicle files do not give it; less under a low vehicle."""
+"""Radius of every tyre [m], which vehicle files do not give; smaller under a low vehicle."""
 TYRE_WIDTH = 0.3
 FLOOR = 0.9
 """Height of a body's floor in m; that of the wheels' centres under a low vehicle."""
@@ -28,7 +28,7 @@ class Placed(NamedTuple):
     unit : Unit
         Complete.
     x : float
-        Of its centre of gravity in m, from the lead unit's, forward positive.
+        Position of its centre of gravity from the lead unit's, forward positive [m].
     rear, front : float
         Ends of its body [m].
     assumed_height : bool
