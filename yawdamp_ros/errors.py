@@ -1,7 +1,7 @@
 """The base of every error that a user's input can cause."""
 
 LONGEST_LINE = 1000
-"""Characters of a message: more of a file's own words would help nobody."""
+"""Limit on the characters of a message: a longer quotation of a file would not help."""
 
 
 class YawdampError(ValueError):
@@ -12,10 +12,10 @@ class YawdampError(ValueError):
 
 
 def one_line(text: str) -> str:
-    """A text as one line that a terminal shows as it is, whatever a file put in it.
+    """Return a text as one line that a terminal shows as it is, whatever a file put in it.
 
-    What is no printable character is written as Python writes it, and of a long text the middle is left
-    out: its beginning names the file and its end says what was expected.
+    Characters that cannot be printed are escaped as in Python. A long text loses its middle: the beginning
+    names the file and the end says what was expected.
     """
     if len(text) > LONGEST_LINE:
         text = f"{text[: LONGEST_LINE // 2]} ... {text[-LONGEST_LINE // 2 :]}"

@@ -27,7 +27,7 @@ def parse_yaml(text: str, most_values: int) -> Any:  # noqa: ANN401 - any YAML u
     Returns
     -------
     object
-        Of mappings, sequences and scalars.
+        Data of mappings, sequences and scalars.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def parse_yaml(text: str, most_values: int) -> Any:  # noqa: ANN401 - any YAML u
             return yaml.constructor.construct_document(root)
     except MarkedYAMLError as error:
         where = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
-        # Of nesting it goes on to say how a program would allow more.
+        # The message on too deep nesting goes on with advice for programmers.
         problem = str(error.problem).partition("\n")[0].partition(", if necessary")[0]
         message = f"{where}not valid YAML: {problem}"
         raise ValueError(message) from error

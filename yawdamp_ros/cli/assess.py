@@ -58,7 +58,7 @@ def main(argv: Sequence[str]) -> int:
 def _write_files(options: argparse.Namespace, assessments: Sequence[Assessment]) -> None:
     """Write page, print and spreadsheet, as far as they are asked for."""
     if options.html or options.pdf:
-        # Here and not above: what the page needs takes longer to load than most assessments to run.
+        # Imported here: the libraries of the page take longer to load than most assessments take.
         from yawdamp_ros.pictures.assessment_page import Heading, assessment_page  # noqa: PLC0415
         from yawdamp_ros.pictures.page import print_page, save_page  # noqa: PLC0415
 

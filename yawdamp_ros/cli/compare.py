@@ -51,7 +51,7 @@ def main(arguments: Sequence[str]) -> int:
     against = f"the run {options.run}" if options.run else f"{vehicle.name}, {_model(options)} model"
     title = f"{Path(options.log).name} against {against}"
     if options.html:
-        # Here and not above: a table is there before what makes pages has loaded.
+        # Imported here: the table appears before the library for pages has loaded.
         from yawdamp_ros.pictures.drive_page import PageTable, drive_page  # noqa: PLC0415
         from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
 

@@ -31,7 +31,7 @@ class _Done(ProgressColumn):
 def progress_bar(unit: str = "s") -> Progress:
     """A progress bar on standard error; silent where that is no terminal."""
     console = Console(stderr=True)
-    # Besides `disable`: rich before 14 ends a disabled bar with an empty line.
+    # Needed besides `disable`: rich before 14 ends a disabled bar with an empty line.
     console.quiet = not console.is_terminal
     return Progress(
         TextColumn("{task.description}"),

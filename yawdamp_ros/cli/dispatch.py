@@ -61,7 +61,7 @@ def run(arguments: Sequence[str]) -> int:
         print(f"{prefix}: interrupted", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
-        # The reader of a pipe (head, less) has gone; nothing is wrong, and nothing more can be said.
+        # The reader of a pipe (head, less) has exited: not an error, and no further output is possible.
         _give_up_output()
         return 0
     except MemoryError:

@@ -78,7 +78,7 @@ def _pool(workers: int, *, threads: bool) -> Iterator[Mapped]:
     executor = (
         ThreadPoolExecutor(workers)
         if threads
-        # Spawned: a fork of a process that has threads, as NumPy's BLAS does, can hang.
+        # Spawned: a fork of a process with threads, such as those of NumPy's BLAS, can hang.
         else ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_set_up_worker)
     )
     try:
@@ -87,7 +87,7 @@ def _pool(workers: int, *, threads: bool) -> Iterator[Mapped]:
         message = "a worker process ended before its work did; what is written stands"
         raise UsageError(message) from error
     finally:
-        # A mere context would wait for chunks that nobody asks for any more.
+        # A context manager would wait for chunks that are no longer needed.
         executor.shutdown(wait=True, cancel_futures=True)
 
 
@@ -105,7 +105,7 @@ def _in_order(
 
 
 def _set_up_worker() -> None:
-    # A terminal's Ctrl-C reaches every process: the one that writes decides when to stop.
+    # Ctrl-C in a terminal reaches every process: the writing one decides when to stop.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 

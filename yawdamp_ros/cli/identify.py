@@ -112,7 +112,7 @@ def _record(log: str, drive: Drive, found: Identification) -> dict[str, object]:
 
 
 def _save_page(title: str, drive: Drive, found: Identification, path: str) -> None:
-    # Here and not above: a table is there before what makes pages has loaded.
+    # Imported here: the table appears before the library for pages has loaded.
     from yawdamp_ros.pictures.drive_page import PageTable, drive_page  # noqa: PLC0415
     from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
 

@@ -86,7 +86,7 @@ def chosen_log(
 ) -> SteeringLog:
     """Steering and other inputs of a drive of a path as they were commanded, cut as the options say.
 
-    What else it holds, besides the channels that are followed, is named on standard error.
+    Channels of the log that are not followed are named on standard error.
 
     Raises
     ------

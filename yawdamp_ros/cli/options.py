@@ -55,7 +55,7 @@ RUN_SETTINGS = (
     "max_lateral_acceleration",
     "max_articulation",
 )
-"""Of `SimParameters`: what drives, what becomes of the steering, and where a run is stopped."""
+"""Settings of `SimParameters` for the longitudinal motion, the steering and the limits of a run."""
 
 
 class Parser(argparse.ArgumentParser):

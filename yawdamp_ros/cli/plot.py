@@ -137,7 +137,7 @@ def _by_models(options: argparse.Namespace) -> list[tuple[str, Response]]:
 
 
 def _draw(runs: Sequence[tuple[str, Response]], output: str, kind: str) -> None:
-    # Here and not above: what draws takes longer to load than a wrong file name takes to find.
+    # Imported here: a wrong file name is reported before the drawing library has loaded.
     if kind == ".html":
         from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
         from yawdamp_ros.pictures.runs_page import runs_page  # noqa: PLC0415

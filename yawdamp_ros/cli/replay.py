@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 def main(arguments: Sequence[str]) -> int:
     """Publish the log until it ends or a signal comes."""
-    # First of all, for a signal may come while the rest is imported.
+    # First, because a signal may arrive while the rest is imported.
     with StopRequest() as stop:
         return _replay(arguments, stop)
 

@@ -38,7 +38,7 @@ def main(arguments: Sequence[str]) -> int:
     options = parser.parse_args(arguments)
     vehicle = load_vehicle(options.vehicle, overrides(options))
     if options.plot:
-        # Here and not above: matplotlib takes longer to load than the rest takes to run.
+        # Imported here: matplotlib takes longer to load than the rest takes to run.
         require("matplotlib")
         from yawdamp_ros.pictures import save  # noqa: PLC0415
         from yawdamp_ros.pictures.vehicle import vehicle_figure  # noqa: PLC0415

@@ -152,7 +152,7 @@ def _by_source(supposed: Sequence[Assumed]) -> list[str]:
         lines.setdefault(each.key.rpartition(".")[2], []).append(each)
     texts = []
     for name, values in lines.items():
-        # All that statics finds stands in the tables.
+        # The tables already show all results of statics.
         if name == "static_load":
             texts.append("static_load: by statics, in the table")
             continue

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def main(arguments: Sequence[str]) -> int:
     """Run the node until its duration is over or a signal comes."""
-    # First of all, for a signal may come while the rest is imported.
+    # First, because a signal may arrive while the rest is imported.
     with StopRequest() as stop, _uncollected():
         return _sim(arguments, stop)
 
@@ -47,7 +47,7 @@ def _sim(arguments: Sequence[str], stop: StopRequest) -> int:
 
     with ros_graph(ros_arguments):
         node = join("yawdamp_sim", _overrides(options))
-        # DDS takes 0.1 s to find the others on the graph: the rest loads meanwhile.
+        # DDS takes 0.1 s to discover the graph: the rest loads meanwhile.
         from yawdamp_ros.nodes.sim import Simulator  # noqa: PLC0415
 
         simulator = Simulator(node)
@@ -86,7 +86,7 @@ def _progress(simulator: "Simulator") -> Iterator[Callable[[], None]]:
     if not simulator.settings.duration:
         yield lambda: None
         return
-    # It takes a while to import, which neither the first sample nor the clock waits for.
+    # Imported late: neither the first sample nor the clock waits for it.
     from yawdamp_ros.cli.console import progress_bar  # noqa: PLC0415
 
     with progress_bar() as bar:

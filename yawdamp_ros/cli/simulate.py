@@ -131,7 +131,7 @@ def _carry_out(run: Run, samples: int, stop: StopRequest) -> None:
             return
         run.advance(min(SAMPLES_AT_ONCE, samples - begin))
         if stop.requested:
-            # Raised where the sinks are open, so that what was simulated is kept in a finished file.
+            # Raised while the sinks are open, so that the simulated part is kept in a finished file.
             raise KeyboardInterrupt
 
 

@@ -109,7 +109,7 @@ def _transfer_function(options: argparse.Namespace, model: LinearModel) -> Trans
 def _draw(options: argparse.Namespace, function: TransferFunction) -> None:
     if not _wants_picture(options):
         return
-    # Here and not above: matplotlib takes longer to load than the rest takes to run.
+    # Imported here: matplotlib takes longer to load than the rest takes to run.
     from yawdamp_ros.pictures import save  # noqa: PLC0415
     from yawdamp_ros.pictures.transfer import bode_figure, nyquist_figure, root_locus_figure  # noqa: PLC0415
 

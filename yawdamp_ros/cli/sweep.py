@@ -63,7 +63,7 @@ def main(argv: Sequence[str]) -> int:
         else np.empty((0, 2, 2))
     )
     if options.plot:
-        # Here and not above: matplotlib takes longer to load than most sweeps take to run.
+        # Imported here: matplotlib takes longer to load than most sweeps take to run.
         from yawdamp_ros.pictures import save  # noqa: PLC0415
         from yawdamp_ros.pictures.sweeps import curve_figure, histogram_figure, map_figure  # noqa: PLC0415
 
@@ -112,7 +112,7 @@ def _sink(plan: Plan, columns: Sequence[str], output: str | None) -> SweepFile |
     if output is None:
         return None
     if output.lower().endswith(PARQUET):
-        # Here and not above: an optional library.
+        # Imported here: an optional library.
         from yawdamp_ros.logs.sweep_parquet import SweepParquet  # noqa: PLC0415
 
         return SweepParquet(Path(output), plan.definition, plan.points, columns)

@@ -17,7 +17,7 @@ from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 MOST_ROWS, MOST_COLUMNS = 60, 12
-"""Of a table that is printed whole."""
+"""Largest size of a table that is printed whole."""
 
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 
@@ -34,7 +34,7 @@ class Sweep:
     points : Points
     answers : ndarray, shape (k, a)
     columns : tuple of str
-        Of points, then of answers.
+        Names of the columns: those of points, then those of answers.
     """
 
     study: Study

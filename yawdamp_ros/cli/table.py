@@ -17,7 +17,7 @@ FRAME = 3
 """Characters that a frame takes from each column; narrow tables have none, but two between columns."""
 
 _BREAKS = re.compile(r"(?<=_)(?=[a-z])|(?<=\+ )(?=[a-z])|(?<=   )(?=\S)|(?<=; )")
-"""Where prose may go on in the next line: in names, between modes, eigenvalues and levels."""
+"""Places where a line may break: in names, between modes, eigenvalues and levels."""
 
 
 def print_table(
@@ -39,7 +39,7 @@ def print_table(
     prose : sequence of int
         Columns that may be shortened, the first one first.
     width : int, optional
-        In characters; unless given the terminal's, or `PIPE_WIDTH`.
+        Width in characters; the default is the terminal's, or `PIPE_WIDTH`.
     """
     if width is None and not sys.stdout.isatty():
         width = PIPE_WIDTH

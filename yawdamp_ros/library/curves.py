@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 UNIT_QUANTITIES = {"yaw": "rad", "yaw_rate": "rad/s", "lateral_acceleration": "m/s^2", "x": "m", "y": "m"}
-"""Of every unit, each with its unit of measure."""
+"""Quantities of every unit, each with its unit of measure."""
 
 
 class UnitCurves(NamedTuple):
@@ -21,7 +21,7 @@ class UnitCurves(NamedTuple):
     Attributes
     ----------
     time : ndarray, shape (m,)
-        In s.
+        Time [s].
     yaw, yaw_rate, lateral_acceleration, x, y : ndarray, shape (m,)
         rad, rad/s, m/s^2, m.
 
@@ -152,7 +152,7 @@ class Curves(Response):
         PictureError
             If there are more units than can be told apart, or the file cannot be written.
         """
-        # Here and not above: a run that is not drawn does without what draws.
+        # Imported here: only a drawn run needs the drawing library.
         from yawdamp_ros.pictures import save  # noqa: PLC0415
         from yawdamp_ros.pictures.runs import runs_figure  # noqa: PLC0415
 

@@ -30,15 +30,15 @@ class RigEnv(gymnasium.Env[FloatArray, FloatArray]):
     Parameters
     ----------
     settings : SimParameters
-        As the node has them: `publish_rate` is that of the actions, an episode lasts `duration`, or 15 s.
+        Settings as for the node: actions come at `publish_rate`; an episode lasts `duration`, or 15 s.
     reward : callable
-        Of the sample that follows an action.
+        Function from the sample that follows an action to its reward.
     actions : sequence of str
         Inputs by name, ``steering`` or one of `Plant.commands.held`.
     observations : sequence of str, optional
         Columns of the outputs, as a CSV file of the run has them; all of them unless given.
     vehicle : Vehicle, optional
-        In place of that of the settings.
+        Vehicle in place of that of the settings.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ def vector_env(count: int, make: Callable[[], RigEnv]) -> SyncVectorEnv:
     ----------
     count : int
     make : callable
-        Of one environment.
+        Function that makes one environment.
 
     Returns
     -------

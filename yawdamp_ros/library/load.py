@@ -31,7 +31,7 @@ def load_run(path: str | Path) -> Curves:
     >>> load_run("run.csv")["truck"].yaw_rate.shape
     (2001,)
     """
-    # Here and not above: each reader loads only with its files.
+    # Imported here: each reader loads only with its files.
     from yawdamp_ros.logs import is_recording  # noqa: PLC0415
 
     place = Path(path)

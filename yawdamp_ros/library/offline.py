@@ -33,7 +33,7 @@ def simulate(  # noqa: PLR0913 - each is one setting of a run
         Road-wheel steer angle in rad: at a time in s, as the manoeuvres are, or of every step of the
         duration; or a drive, whose speed is followed, too, unless one is given.
     duration : float, optional
-        In s; of a drive its own unless given.
+        Duration [s]; for a drive, its own unless given.
     step_size : float
         Fixed step in s; the steering is held over each.
     sample_period : float, optional

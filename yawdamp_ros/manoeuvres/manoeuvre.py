@@ -27,7 +27,7 @@ SETTINGS = tuple(dict.fromkeys(field.name for kind in MANOEUVRES.values() for fi
 _POSITIVE = frozenset({"frequency", "rise_time", "width", "final_frequency", "sweep_time"})
 _NOT_NEGATIVE = frozenset({"start", "cycles"})
 _LEAST, _LARGEST = 1e-9, 1e9
-"""Of all settings but the amplitude: what is beyond would overflow."""
+"""Smallest and largest value of all settings but the amplitude; others would overflow."""
 
 
 def make_manoeuvre(name: str, settings: Mapping[str, float]) -> Manoeuvre:

@@ -17,7 +17,7 @@ class Sine:
     amplitude : float
         Road-wheel steer angle, left positive [rad].
     frequency : float
-        In Hz.
+        Frequency [Hz].
     start : float
         Time at which the steering begins [s].
     cycles : float
@@ -52,7 +52,7 @@ class LaneChange(Sine):
     amplitude : float
         Road-wheel steer angle, left positive [rad].
     frequency : float
-        In Hz.
+        Frequency [Hz].
     start : float
         Time at which the steering begins [s].
     cycles : float
