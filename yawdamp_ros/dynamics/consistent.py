@@ -127,7 +127,7 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
 
 
 def _each(value: float, axes: int) -> FloatArray:
-    """A number of one vehicle, or of each of a stack, to be multiplied with vectors or matrices."""
+    """Number of one vehicle, or of each vehicle of a stack, shaped to multiply vectors or matrices."""
     return np.asarray(value, dtype=np.float64)[(..., *[np.newaxis] * axes)]
 
 

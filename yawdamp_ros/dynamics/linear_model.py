@@ -18,7 +18,7 @@ MODELS: Mapping[str, Callable[[Vehicle, float], tuple[FloatArray, FloatArray]]] 
 """The models of a vehicle, each a function from vehicle and speed to state and input matrix."""
 
 LOWEST_SPEED = 0.01
-"""In m/s. A slip angle is a lateral velocity over the speed, which grows without bound towards standstill."""
+"""Lowest speed [m/s]. Slip angles divide by the speed and grow without bound towards standstill."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class OutputSlices(NamedTuple):
 
     @classmethod
     def of(cls, units: int) -> "OutputSlices":
-        """Those of a number of units."""
+        """Return the slices for a number of units."""
         return cls(*(slice(start, start + units) for start in range(0, 4 * units, units)))
 
 

@@ -183,7 +183,7 @@ def _check_shape(vehicle: Vehicle) -> None:
 
 
 def _array(rows: Sequence[Sequence[Number]]) -> FloatArray:
-    """A matrix of numbers, each of one vehicle or of every vehicle of a stack."""
+    """Matrix of numbers, each of one vehicle or with one value for each vehicle of a stack."""
     entries = np.broadcast_arrays(*(entry for row in rows for entry in row))
     matrix = np.stack(entries, axis=-1).astype(np.float64)
     return matrix.reshape(*matrix.shape[:-1], len(rows), len(rows[0]))

@@ -11,7 +11,7 @@ from yawdamp_ros.dynamics.linear_model import MODELS
 from yawdamp_ros.vehicle import Vehicle
 
 _BASE = 8.0
-"""In m/s. Parts are found from the matrices at this speed, twice and four times of it."""
+"""Speed [m/s]. The parts follow from the matrices at this speed, twice this speed and four times it."""
 
 
 class SpeedParts(NamedTuple):
@@ -57,7 +57,7 @@ class StateMatrices(NamedTuple):
 
     @classmethod
     def of(cls, vehicle: Vehicle, model: str, count: int) -> "StateMatrices":
-        """Find those of a stack of a number of vehicles, in one of `MODELS`."""
+        """Find the matrices of a stack of so many vehicles, in one of `MODELS`."""
         parts = SpeedParts.of(lambda speed: MODELS[model](vehicle, speed)[0])
         shape = (count, *parts.constant.shape[-2:])
         return cls(SpeedParts._make(np.broadcast_to(part, shape) for part in parts))
@@ -69,5 +69,5 @@ class StateMatrices(NamedTuple):
         return constant + by_inverse / each + by_speed * each
 
     def of_vehicles(self, indices: npt.NDArray[np.intp]) -> "StateMatrices":
-        """Those of some of the vehicles, any of them more than once."""
+        """Return the matrices of some of the vehicles; a vehicle may occur more than once."""
         return StateMatrices(SpeedParts._make(part[indices] for part in self.parts))

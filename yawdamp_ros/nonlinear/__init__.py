@@ -1,4 +1,4 @@
-"""The nonlinear model: exact chain, saturating tyres, roll, and what combinations do at their limits."""
+"""The nonlinear model: exact chain, saturating tyres, roll, and events at the limits."""
 
 from yawdamp_ros.nonlinear.compiled import COMPILED
 from yawdamp_ros.nonlinear.dynamics import NonlinearDynamics, Steps

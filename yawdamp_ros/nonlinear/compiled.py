@@ -1,4 +1,4 @@
-"""Compile a function by Numba where there is one; otherwise run it as it is."""
+"""Compilation of functions by Numba; without Numba they run uncompiled."""
 
 import hashlib
 import logging
@@ -27,7 +27,7 @@ COMPILED = numba is not None
 def compiled(function: Function) -> Function:
     """Compile a function on its first call, keeping floating-point operations in their written order.
 
-    It runs without Python's lock, so that threads step vehicles side by side.
+    It runs without Python's lock, so that threads can step vehicles in parallel.
 
     Parameters
     ----------

@@ -81,7 +81,7 @@ class Event:
 
 
 def event_count(units: int, axles: int) -> int:
-    """Return the length of the array that `note_events` fills: 4 for each axle, 3 for each unit."""
+    """Return the length of the array that `note_events` writes: 4 for each axle, 3 for each unit."""
     return 4 * axles + 3 * units
 
 

@@ -27,7 +27,7 @@ FRICTION_RATE = 0.01
 STOP_STIFFNESS = 5.0e6
 """Stiffness of the contact of two units past their largest articulation [N m/rad]."""
 STOP_DAMPING = 2.0e5
-"""In N m s/rad."""
+"""Damping of that contact [N m s/rad]."""
 
 
 @compiled

@@ -94,7 +94,7 @@ class StateLayout:
 
     @property
     def moving(self) -> slice:
-        """Everything but position and yaw of the lead unit: on a flat road nothing depends on these."""
+        """Slice without position and yaw of the lead unit, on which nothing depends on a flat road."""
         return slice(3, self.size)
 
     def names(self, unit_names: Sequence[str]) -> tuple[str, ...]:

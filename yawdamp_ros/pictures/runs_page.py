@@ -12,7 +12,7 @@ from yawdamp_ros.stepping import Response
 SHADE = "#f3e3dc"
 BEYOND = "beyond the linear range"
 MARK = "#a02020"
-"""Colour of what happened to the vehicle."""
+"""Colour of the vehicle's events."""
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 """Line styles, one for each run."""
 MOST_SAMPLES = 20_000

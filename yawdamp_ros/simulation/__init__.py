@@ -1,4 +1,4 @@
-"""A run, from what it is asked for to what comes out of it; no ROS.
+"""A run, from its settings to its samples; no ROS.
 
 ``command source -> SteeringInput -> SteeringActuator -> Motion.run -> limits -> Sample -> sinks``
 """

@@ -1,4 +1,4 @@
-"""Commands on their way to the model: taken or refused, limited, timed out, lagged."""
+"""Commands on their way to the model: accepted or rejected, limited, timed out, lagged."""
 
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
@@ -28,7 +28,7 @@ NO_SIGNALS: Mapping[str, Signal] = MappingProxyType({})
 
 
 class Commands:
-    """Source of a run that is driven by a manoeuvre, a log, or calls of `steer` and `demand`.
+    """Source of a run driven by a manoeuvre, a log, or calls of `steer` and `demand`.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ class Commands:
         self._reset = True
 
     def change(self, settings: SimParameters) -> None:
-        """Go by other settings from now on, as far as they can change while running."""
+        """Apply other settings from now on, as far as they can change during a run."""
         for name, value in _limits(settings, self._grid).items():
             setattr(self.steering_input, name, value)
         speed = self.held["speed"]
@@ -166,7 +166,7 @@ class Commands:
         return found
 
     def _new(self, step: int) -> list[AppliedInput]:
-        """Inputs that are other ones than those applied, from a step on."""
+        """Inputs that differ from the applied ones, from a step on."""
         found = []
         for name, held in self.held.items():
             if held.value is not None and held.value != self._applied.get(name):
@@ -176,7 +176,7 @@ class Commands:
         return found
 
     def _end_other(self, name: str) -> None:
-        """Let the newer of speed and acceleration count, and the other one act once it comes again."""
+        """Use the newer of speed and acceleration; the other one acts when it arrives again."""
         for other in LONGITUDINAL:
             if name in LONGITUDINAL and other != name and other in self.held:
                 self.held[other].value = self._applied[other] = None

@@ -4,7 +4,7 @@ from yawdamp_ros.errors import YawdampError
 
 
 class SimulationError(YawdampError):
-    """A run that is not possible as it was asked for.
+    """Run that is not possible with its settings.
 
     Examples
     --------

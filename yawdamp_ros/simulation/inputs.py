@@ -1,7 +1,7 @@
 """Everything that acts on a run besides steering, in one table.
 
-Topics, channels of logs, what is clamped, what diagnostics tell and the table in the manual follow from it;
-which of them a model takes, its `input_names` say.
+Topics, channels of logs, ranges, diagnostics and the table in the manual follow from it;
+the `input_names` of a model say which inputs it takes.
 """
 
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Limits beyond which a motion means nothing."""
+"""Limits beyond which a motion has no meaning."""
 
 import math
 from collections.abc import Sequence
@@ -37,12 +37,12 @@ class Limits(NamedTuple):
 
     @classmethod
     def of(cls, settings: SimParameters) -> "Limits":
-        """Limits that settings ask for."""
+        """Limits of the settings."""
         return cls(settings.max_lateral_acceleration, settings.max_articulation)
 
     @classmethod
     def warning(cls, settings: SimParameters) -> "Limits":
-        """Levels past which settings ask for a warning: there a truck leaves the range of a linear model."""
+        """Warning levels of the settings, at which a truck leaves the range of a linear model."""
         if settings.model not in LINEAR_MODELS:
             return cls(math.inf, math.inf)
         return cls(settings.warn_lateral_acceleration, settings.warn_articulation)

@@ -1,4 +1,4 @@
-"""Range in which a truck does what the linear model does."""
+"""Range in which a truck follows the linear model."""
 
 from collections.abc import Callable, Sequence
 
@@ -53,7 +53,7 @@ class LinearRange:
         return "" if self.first is None else self.first.reason
 
     def look(self) -> Stop | None:
-        """Newest instant past a level since the last look, None if there is none."""
+        """Newest instant past a level since the last call; None without one."""
         latest, self.latest = self.latest, None
         return latest
 
@@ -66,4 +66,4 @@ class LinearRange:
                 self._tell(self.latest)
 
     def close(self) -> None:
-        """Nothing is left to be told."""
+        """Do nothing: there is nothing to close."""

@@ -11,7 +11,7 @@ from yawdamp_ros.stepping import Motion, Start, Stepper
 from yawdamp_ros.vehicle import Vehicle
 
 Factory = Callable[[Vehicle, float | None, float], Motion]
-"""From a vehicle, its speed in m/s (None: its own) and the step size in s to a motion at step 0."""
+"""Function from vehicle, speed [m/s] (None for its own) and step size [s] to a motion at step 0."""
 
 
 def _linear(name: str, vehicle: Vehicle, speed: float | None, step_size: float) -> Motion:
@@ -34,7 +34,7 @@ MODELS: Mapping[str, Factory] = MappingProxyType(
 def make_motion(
     vehicle: Vehicle, model: str, speed: float | None, step_size: float, start: Start | None = None
 ) -> Motion:
-    """Return the motion of a vehicle by the model of a name, at rest at the origin.
+    """Return the motion of a vehicle by a named model, at rest at the origin.
 
     Parameters
     ----------

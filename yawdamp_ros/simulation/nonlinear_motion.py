@@ -90,7 +90,7 @@ class NonlinearMotion:
 
     @property
     def speed(self) -> float:
-        """Longitudinal velocity of the lead unit now [m/s]."""
+        """Present longitudinal velocity of the lead unit [m/s]."""
         return float(self._state[self._dynamics.layout.velocity.start])
 
     @property
@@ -107,7 +107,7 @@ class NonlinearMotion:
     def apply(self, applied: AppliedInput) -> None:
         """Let an input act from this instant on.
 
-        A speed and an acceleration end one another: the newer one counts.
+        A speed and an acceleration replace each other: the newer one counts.
         """
         if applied.name == "reset":
             self._state = self._first
@@ -148,12 +148,12 @@ class NonlinearMotion:
         return sample if steps_per_sample is not None else _single(sample)
 
     def sample(self) -> Sample:
-        """Sample of this instant; its lists of what happened start anew."""
+        """Return the sample of this instant; the lists of events and inputs start anew."""
         step, angle = np.array([self._step]), np.array([self.steering_angle])
         return _single(self._sample_of(step, angle, self._state[np.newaxis], self._inputs[np.newaxis], ()))
 
     def snapshot(self) -> Mapping[str, Any]:
-        """State sufficient for `restore`; JSON has no NaN, which a speed that nothing holds is."""
+        """State sufficient for `restore`; None replaces NaN (no held speed), which JSON lacks."""
         return {
             "step": self._step,
             "first": self._first.tolist(),
@@ -262,7 +262,7 @@ def _event(found: NonlinearEvent) -> Event:
 
 
 def _single(sample: Sample) -> Sample:
-    """Sample of one instant, of the shapes that one has, from one of several of which there is one."""
+    """Return a sample in the shapes of one instant, from a sample of several that holds only one."""
     single = {
         name: value[0]
         for name, value in sample._asdict().items()

@@ -17,7 +17,7 @@ NO_INPUTS: Mapping[str, float] = {}
 
 
 class Plant:
-    """The run of the node without the node: commands in, the sample of the next period out.
+    """The node's run without the node: commands in, sample of the next period out.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A run: commands in, samples out, by whatever drives it."""
+"""A run: commands in, samples out."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from yawdamp_ros.simulation.sink import Sink
 from yawdamp_ros.stepping import AppliedInput, Command, Event, Motion, Sample, TimeGrid
 
 SAMPLES_AT_ONCE = 1000
-"""Instants that are computed before they are handed on, where nothing waits for each."""
+"""Instants that are computed at once if no sink waits for each."""
 
 
 class Source(Protocol):
@@ -34,7 +34,7 @@ class Source(Protocol):
     """
 
     def inputs(self, steps: range) -> Sequence[AppliedInput]:
-        """Inputs other than steering that act from one of these steps on, in order, each told once."""
+        """Inputs other than steering that act from one of these steps on, in order, each given once."""
 
     def steering(self, steps: range) -> Sequence[float]:
         """Road-wheel steer angle in rad from each of these steps on, each asked for once."""
@@ -44,9 +44,9 @@ class Source(Protocol):
 
 
 class Run:
-    """Steps a motion as its source demands, and hands every sample to its sinks until a limit is passed.
+    """Steps a motion by its source and hands every sample to its sinks until a limit is exceeded.
 
-    The same for the node, for `simulate` and for `resimulate`.
+    The node, `simulate` and `resimulate` all use it.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class Run:
 
     @property
     def time(self) -> float:
-        """Simulated time in s: of now, or of the instant at which the run was stopped."""
+        """Present simulated time, or the time at which the run was stopped [s]."""
         return self.grid.seconds(self.motion.step if self.stopped is None else self.stopped.step)
 
     def start(self) -> None:

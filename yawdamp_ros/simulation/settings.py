@@ -15,11 +15,11 @@ from yawdamp_ros.stepping import Start
 from yawdamp_ros.stepping.held_input import FASTEST_REVERSE, HIGHEST_SPEED
 
 UNSET = float("nan")
-"""A number that was not given: the manoeuvre's own default counts."""
+"""Value of a number that was not given: the manoeuvre's default applies."""
 SLOWEST = 0.1
 """Least real_time_factor; slower, a pause and single steps serve better."""
 FASTEST_RATE = 1e4
-"""Samples a second of real time that a node can be asked for."""
+"""Largest rate of samples that a node accepts, in real time [1/s]."""
 _ANGLE = "NaN, or an angle of at most pi/2"
 _POSITIVE = "NaN, or a number above 0"
 _NOT_NEGATIVE = "NaN, or a number of at least 0"
@@ -316,7 +316,7 @@ FORMER_NAMES: Mapping[str, str] = MappingProxyType(
     {declared.name: name for name, declared in PARAMETERS.items() if name != declared.name}
     | {"speed_source": "longitudinal_source"}
 )
-"""Names by former ones, which 0.1 still accepts."""
+"""Present name of each former name that 0.1 still accepts."""
 
 FORMER_VALUES: Mapping[tuple[str, str], str] = MappingProxyType({("speed_source", "topic"): "speed"})
-"""Values by former names and values."""
+"""Present value of each former name and value."""

@@ -1,4 +1,4 @@
-"""Messages that hold steering, and the way to the angle in each."""
+"""Messages that hold steering, and the path of the angle in each."""
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
@@ -27,7 +27,7 @@ STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyT
         ),
     }
 )
-"""Types that can hold steering, each with the way to its angle in rad, left positive."""
+"""Types that can hold steering, each with a function to its angle, left positive [rad]."""
 
 
 def message_stamp(message: Any) -> int:  # noqa: ANN401 - made from a definition

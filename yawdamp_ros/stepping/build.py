@@ -5,13 +5,13 @@ import platform
 import numpy as np
 
 NUMERICS = 2
-"""Raised whenever this package computes the same in another way, so that last bits change."""
+"""Version of the computation; a change that affects last bits increases it."""
 
 
 def build_of_numerics() -> str:
-    """Machine, NumPy, and the BLAS with the kernels that it has chosen, in a line.
+    """Return machine, NumPy, and BLAS with its chosen kernels in one line.
 
-    OpenBLAS picks its kernels when it loads, by the processor or by ``OPENBLAS_CORETYPE``; threadpoolctl asks
+    OpenBLAS selects its kernels when it loads, by the processor or ``OPENBLAS_CORETYPE``; threadpoolctl reads
     it which. Without threadpoolctl the line says that they are not known.
     """
     configuration = np.show_config(mode="dicts")

@@ -4,7 +4,7 @@ from yawdamp_ros.errors import YawdampError
 
 
 class SteppingError(YawdampError):
-    """Steps, periods or durations that do not fit together, or a motion beyond all numbers.
+    """Mismatch of steps, periods or durations, or a motion that overflows.
 
     Examples
     --------

@@ -5,11 +5,11 @@ import math
 from yawdamp_ros.stepping.verdict import Verdict
 
 LOWEST_FOLLOWED = 1.0
-"""In m/s. A slip angle is a lateral velocity over the speed, which means nothing towards standstill."""
+"""Lowest speed [m/s]. Slip angles divide by the speed and lose their meaning towards standstill."""
 HIGHEST_SPEED = 70.0
-"""In m/s, as for vehicle files."""
+"""Highest speed [m/s], as for vehicle files."""
 FASTEST_REVERSE = 5.0
-"""Magnitude in m/s of the speed backwards that a model which can reverse may be asked for."""
+"""Largest speed backwards that may be demanded of a model that can reverse [m/s]."""
 
 
 class HeldInput:
@@ -69,7 +69,7 @@ class HeldInput:
         return verdict
 
     def reject(self, verdict: Verdict) -> Verdict:
-        """Count a value that is not considered."""
+        """Count a value without checking it."""
         self.counts[verdict] += 1
         return verdict
 

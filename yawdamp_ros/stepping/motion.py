@@ -59,14 +59,14 @@ class Motion(Protocol):
 
     @property
     def speed(self) -> float:
-        """Longitudinal velocity of the lead unit now, m/s."""
+        """Present longitudinal velocity of the lead unit [m/s]."""
 
     @property
     def steering_angle(self) -> float:
         """Road-wheel steer angle in force from this instant on, rad."""
 
     def begin(self, start: Start) -> None:
-        """Stand at a start, to which a reset returns; at step 0, before anything is sampled.
+        """Set the start, to which a reset returns; allowed at step 0 before the first sample.
 
         Raises
         ------
@@ -97,7 +97,7 @@ class Motion(Protocol):
         """
 
     def sample(self) -> Sample:
-        """Sample of this instant; its lists of what happened start anew."""
+        """Return the sample of this instant; the lists of events and inputs start anew."""
 
     def snapshot(self) -> Mapping[str, Any]:
         """State sufficient for `restore`, of what JSON holds: the same bits follow here as there.
@@ -109,4 +109,4 @@ class Motion(Protocol):
         """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
 
     def linearise(self) -> LinearModel:
-        """Linear model about straight running at the speed of now."""
+        """Linear model about straight running at the present speed."""

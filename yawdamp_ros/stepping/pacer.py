@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 CATCH_UP_NS = 100_000_000
-"""Longest delay in ns of the clock that is made up for."""
+"""Longest delay of the clock that is caught up [ns]."""
 LEAST_CATCH_UP = 10
 """Sample periods that are caught up even if they are longer than that."""
 
@@ -27,7 +27,7 @@ class Due(NamedTuple):
 
 
 class Pacer:
-    """Simulated time beside a monotonic clock, at a rate.
+    """Simulated time that follows a monotonic clock at a rate.
 
     The clock is read, not counted in callbacks: a timer skips the cycles that it misses. A delay of up to
     `CATCH_UP_NS`, or `LEAST_CATCH_UP` periods, is caught up; the rest is dropped, so that a process that
@@ -63,17 +63,17 @@ class Pacer:
         return self._paused
 
     def pause(self, now: int) -> None:
-        """Let time stand; a second time does nothing."""
+        """Pause time; a second pause does nothing."""
         self._bank(now)
         self._paused = True
 
     def resume(self, now: int) -> None:
-        """Let time go on where it stood."""
+        """Resume time where it stood."""
         self._bank(now)
         self._paused = False
 
     def change_rate(self, rate: float, now: int) -> None:
-        """Go on at another rate."""
+        """Continue at another rate."""
         self._bank(now)
         self._rate = rate
 
@@ -95,7 +95,7 @@ class Pacer:
         return max(int(CATCH_UP_NS * max(self._rate, 1.0)) // self._period_ns, LEAST_CATCH_UP)
 
     def _bank(self, now: int) -> None:
-        """Turn the time since the last look into simulated time that is due."""
+        """Convert the time since the last reading into simulated time that is due."""
         if not self._paused:
             self._ahead += (now - self._since) * self._rate
         self._since = now

@@ -1,4 +1,4 @@
-"""Pose of a unit, alike for everything that shows it."""
+"""Pose of a unit, the same for all displays."""
 
 import cmath
 
@@ -15,7 +15,7 @@ def half_turns(heading: ComplexArray) -> ComplexArray:
 
 
 def half_turn(angle: float) -> complex:
-    """The same for one angle in rad."""
+    """Half turn of one angle [rad]."""
     return cmath.exp(0.5j * angle)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 LARGEST_PRODUCT = 9216
-"""Elements from which OpenBLAS splits a product with a vector over threads, on whose number bits depend."""
+"""Elements from which OpenBLAS splits a product over threads; their number would change bits."""
 
 
 class Propagator(NamedTuple):
@@ -31,7 +31,7 @@ class Propagator(NamedTuple):
 
     @property
     def dot(self) -> Callable[[FloatArray, FloatArray], object]:
-        """Product of `steps` and a vector, into another."""
+        """Function that writes the product of `steps` and a vector into another vector."""
         return self.steps.dot if self.steps.size < LARGEST_PRODUCT else self._dot_by_parts
 
     def _dot_by_parts(self, vector: FloatArray, product: FloatArray) -> None:

@@ -81,7 +81,7 @@ def propagator(model: LinearModel, step_size: float) -> Propagator:
 def exponential(matrix: FloatArray, norm: float | None = None) -> FloatArray:
     """Matrix exponential by Taylor's series, scaled and squared.
 
-    To rounding as good as `scipy.linalg.expm` for the matrices of a step, which are small; importing that
+    As accurate as `scipy.linalg.expm` for the small matrices of a step; importing that
     would take longer than all else that a node does to start.
 
     Parameters
@@ -148,7 +148,7 @@ def _steps(step: FloatArray, size: int, block: int) -> FloatArray:
 
 
 def _multiply(left: FloatArray, right: FloatArray, product: FloatArray) -> None:
-    """Put the product of two matrices into another, in bits that no number of threads changes."""
+    """Write the product of two matrices into a third; its bits do not depend on the number of threads."""
     columns = LARGEST_MATRIX_PRODUCT // left.size
     if right.shape[1] <= columns:
         left.dot(right, product)

@@ -19,7 +19,7 @@ from yawdamp_ros.stepping.yaw import LARGEST_YAW
 Steering = Callable[[float], float]
 """Road-wheel steer angle in rad at a time in s."""
 SAMPLES_AT_ONCE = 1000
-"""Instants that are computed before they are handed on."""
+"""Instants that are computed at once."""
 
 
 @dataclass(frozen=True)
@@ -202,7 +202,7 @@ def linear_response(
 
 
 def _finite(sample: Sample, motion: Motion, grid: TimeGrid) -> Sample:
-    """The sample, of several instants, unless there are no numbers for it."""
+    """Return a sample of several instants; raise if its values overflow."""
     known = (np.abs(sample.yaw) <= LARGEST_YAW).all(axis=-1)
     if not known.all():
         time = grid.seconds(int(sample.step[np.argmin(known)]))

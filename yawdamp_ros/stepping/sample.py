@@ -1,4 +1,4 @@
-"""The one record that crosses from the numerics to messages and files."""
+"""Record that passes from the numerics to messages and files."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -63,7 +63,7 @@ class Command(NamedTuple):
 
 
 class Event(NamedTuple):
-    """Something that happened to the vehicle, such as a wheel that lifts.
+    """Event of the vehicle, such as a wheel that lifts.
 
     Attributes
     ----------
@@ -151,7 +151,7 @@ class Sample(NamedTuple):
     commands: tuple[Command, ...] = ()
 
     def before(self, instant: int) -> "Sample":
-        """Sample of the instants before one of several, and what happened up to the last."""
+        """Return the sample up to one of its instants, with the inputs and events until then."""
         last = int(self.step[instant - 1]) if instant else int(self.step[0]) - 1
         cut = {
             name: value[:instant]

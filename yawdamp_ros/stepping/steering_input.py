@@ -8,7 +8,7 @@ from yawdamp_ros.stepping.verdict import Verdict
 class SteeringInput:
     """The newest valid steering command, held, scaled, limited and timed out.
 
-    Silence is counted in steps, so that a run repeats whatever the machine was doing. The attributes may
+    The timeout is counted in steps, so that a run repeats on a busy machine, too. The attributes may
     change while running.
 
     Parameters
@@ -81,13 +81,13 @@ class SteeringInput:
         self.counts[verdict] += 1
 
     def at(self, step: int) -> float:
-        """Road-wheel steer angle in rad asked for from a step on, within the limit of now."""
+        """Road-wheel steer angle demanded from a step on, within the present limit [rad]."""
         if self.zero_on_timeout and self.timed_out(step):
             return 0.0
         return self.limited(self._angle)
 
     def limited(self, angle: float) -> float:
-        """Road-wheel angle in rad within the limit of now."""
+        """Road-wheel angle within the present limit [rad]."""
         return min(max(angle, -self.limit), self.limit)
 
     def steps_since_command(self, step: int) -> int | None:
@@ -95,7 +95,7 @@ class SteeringInput:
         return None if self._received_at is None else step - self._received_at
 
     def timed_out(self, step: int) -> bool:
-        """True if commands have come and none has for longer than the timeout."""
+        """True if a command has arrived and the last one is older than the timeout."""
         silence = self.steps_since_command(step)
         return silence is not None and silence > self.timeout_steps
 

@@ -23,10 +23,10 @@ from yawdamp_ros.stepping.start import Start
 from yawdamp_ros.stepping.yaw import Yaw, YawParts
 
 KNOWN_SPEEDS = 4
-"""Speeds whose matrices are kept: more of them would push each other out of the processor's cache."""
+"""Number of speeds whose matrices are kept: more would not fit into the processor's cache."""
 
 FEW_STEPS = 100
-"""Steps over which no motion that a limit has let pass grows beyond all numbers."""
+"""Steps over which a motion within the limits cannot overflow."""
 _NOTHING = nullcontext()
 
 
@@ -85,7 +85,7 @@ class Stepper:
 
     @property
     def speed(self) -> float:
-        """Longitudinal speed of now, m/s."""
+        """Present longitudinal speed [m/s]."""
         return self._motion.propagator.speed
 
     @property
@@ -173,7 +173,7 @@ class Stepper:
         self._inputs = []
 
     def linearise(self) -> LinearModel:
-        """Linear model at the speed of now, which is all there is to this motion."""
+        """Linear model at the present speed, which is the whole of this motion."""
         if self._model.speed != self.speed:
             self._model = linear_model(self.vehicle, self.speed, self._model_name)
         return self._model
@@ -233,7 +233,7 @@ class Stepper:
             return self._sample_of(steps[chosen], given[chosen], instants)
 
     def sample(self) -> Sample:
-        """Sample of this instant; the list of inputs starts anew."""
+        """Return the sample of this instant; the list of inputs starts anew."""
         step, angle = np.asarray(self.step), np.asarray(self.steering_angle)
         return self._sample_of(step, angle, self._now())
 
@@ -332,7 +332,7 @@ class Stepper:
 
 
 def _quiet(steps: int) -> AbstractContextManager[object]:
-    """Leave the judgement of what an unstable motion grows to over many steps to the caller."""
+    """Ignore overflow of an unstable motion over many steps; the caller checks its values."""
     # Entering such a context takes as long as several steps.
     return np.errstate(over="ignore", invalid="ignore") if steps > FEW_STEPS else _NOTHING
 

@@ -13,7 +13,7 @@ SECOND = 1_000_000_000
 """Nanoseconds in a second."""
 
 LONGEST_TIME = 1e9
-"""In s, as for the node: beyond it a time is a slip of the pen."""
+"""Longest time [s], as for the node: a longer one is a typing error."""
 
 
 def nanoseconds(seconds: float) -> int:
@@ -23,7 +23,7 @@ def nanoseconds(seconds: float) -> int:
 
 @dataclass(frozen=True)
 class TimeGrid:
-    """A fixed step and the samples taken every so many of them.
+    """Fixed step, and samples at a fixed number of steps.
 
     Integers throughout: a sum of a million floats drifts, a count does not.
 

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 LARGEST_YAW = 1e100
-"""In rad: an unstable motion grows until it has no numbers left."""
+"""Largest yaw [rad]; the yaw of an unstable motion would overflow."""
 
 
 class YawParts(NamedTuple):
@@ -24,7 +24,7 @@ class YawParts(NamedTuple):
 
 
 class Yaw:
-    """A sum of angles that loses nothing, however many there are.
+    """Sum of any number of angles without rounding error.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Yaw:
         self.set(0.0, 0.0)
 
     def set(self, value: float, remainder: float) -> None:
-        """Be the sum of two numbers, the second the rounding error of the first."""
+        """Set the sum to two numbers, the second the rounding error of the first."""
         known = abs(value) <= LARGEST_YAW
         wrapped = math.atan2(math.sin(value), math.cos(value)) if known else math.nan
         self.parts = YawParts(value, remainder, wrapped)

@@ -1,4 +1,4 @@
-"""Documented defaults of what the nonlinear model needs and a vehicle file need not give.
+"""Documented defaults for optional values of a vehicle file that the nonlinear model needs.
 
 They are typical of laden heavy vehicles. `SOURCES` names the works that treat each quantity; the values are
 secondary, for they were not compared with the tables there. What a vehicle file gives always counts instead.
@@ -36,7 +36,7 @@ LIGHT_UNIT = 6000.0
 
 
 class Assumed(NamedTuple):
-    """A value that the vehicle file does not give.
+    """Value that the vehicle file does not give.
 
     Attributes
     ----------
@@ -158,7 +158,7 @@ AXLE_DEFAULTS: Mapping[str, Default] = MappingProxyType(
 
 
 def complete(vehicle: Vehicle) -> Vehicle:
-    """Fill what a vehicle file does not give with the defaults.
+    """Fill missing values of a vehicle file with the defaults.
 
     Parameters
     ----------

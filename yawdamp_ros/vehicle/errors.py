@@ -4,7 +4,7 @@ from yawdamp_ros.errors import YawdampError
 
 
 class VehicleError(YawdampError):
-    """A vehicle that cannot be used; the message is one line.
+    """Invalid vehicle; the message is one line.
 
     Parameters
     ----------

@@ -21,16 +21,16 @@ from yawdamp_ros.vehicle.spellings import canonical, replaced
 from yawdamp_ros.vehicle.tyres import fancher_stiffness
 
 LONGEST_WHEELBASE = 30.0
-"""Longest believable unit in m: beyond it a file most likely holds millimetres."""
+"""Longest plausible unit [m]: a longer one is most likely in millimetres."""
 
 LARGEST_TYRE_LOAD = 66700.0
-"""In N: up to there Fancher's formula gives more stiffness for more load, and the schema lets a file go."""
+"""Largest tyre load of Fancher's formula and of the schema [N]; beyond it the stiffness falls."""
 
 LARGEST_FILE = 1 << 18
-"""Characters of a vehicle file, most of them remarks."""
+"""Largest vehicle file in characters, most of them comments."""
 
 MOST_VALUES = 10_000
-"""Keys and values of a vehicle file."""
+"""Largest number of keys and values of a vehicle file."""
 
 VEHICLE_KEYS = ("friction", "drag_area", "drag_height", "start_force", "drive_force", "drive_power")
 AXLE_KEYS = (
@@ -127,7 +127,7 @@ def load_vehicle(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicle:
 def examined_vehicle(
     text: str, source: str, overrides: Sequence[str] = ()
 ) -> tuple[Vehicle, tuple[str, ...]]:
-    """Turn the text of a vehicle file into a `Vehicle`, and list what is hard to believe about it.
+    """Turn the text of a vehicle file into a `Vehicle`, and list its implausible values.
 
     Parameters
     ----------
@@ -369,7 +369,7 @@ def _nodes(nodes: list[Any], parts: Sequence[str], key: str, source: str) -> lis
 
 
 def _indices(entries: list[Any], part: str, key: str, source: str) -> list[int]:
-    """Places of a list that a part of a key means: a number, a name, or all."""
+    """Indices of a list that a part of a key selects: a number, a name, or all."""
     if part == "*":
         return list(range(len(entries)))
     names = [entry.get("name") if isinstance(entry, dict) else None for entry in entries]
@@ -460,7 +460,7 @@ def _added_loads(units: Sequence[dict[str, Any]], source: str) -> list[list[Any]
 
 
 def _changed_loads(units: Sequence[dict[str, Any]], before: Any, source: str) -> list[list[Any]]:  # noqa: ANN401
-    """Load that masses which were changed put on every axle, whose static load is of the mass before.
+    """Load that changed masses add to every axle, whose static load belongs to the original mass.
 
     A change acts at the centre of gravity of its unit. Static loads that were changed, too, hold as they are.
     """
@@ -507,7 +507,7 @@ def _tyres_stiffness(axle: dict[str, Any], added: Any, key: str, source: str) ->
 
 
 def _check_supports(units: Sequence[dict[str, Any]], source: str) -> None:
-    """Refuse units that statics finds no two supports for."""
+    """Refuse units without two supports for statics."""
     steered = [axle.get("steered") is True for axle in units[0]["axles"]]
     if all(steered):
         raise VehicleError(
@@ -524,7 +524,7 @@ def _check_supports(units: Sequence[dict[str, Any]], source: str) -> None:
 
 
 def _check_combination(data: dict[str, Any], source: str) -> None:
-    """Refuse what each key alone cannot show."""
+    """Refuse contradictions between keys."""
     units = data["units"]
     for index, unit in enumerate(units):
         key, name = f"units.{index}", unit["name"]
@@ -563,7 +563,7 @@ def _check_static_loads(unit: dict[str, Any], key: str, source: str) -> None:
 
 
 def _check_frames(names: Sequence[str], source: str) -> None:
-    """Refuse names that are those of other frames and links."""
+    """Refuse names of other frames and links."""
     others = {GROUND_FRAME: "the ground", steered_axle_link(names[0]): f"the steered axle of {names[0]}"}
     others |= {hitch_frame(name): f"the hitch of {name}" for name in names[1:]}
     for index, name in enumerate(names):
@@ -598,7 +598,7 @@ def _check_lengths(unit: dict[str, Any], key: str, source: str) -> None:
 
 
 def _first(bad: Any, *values: Any) -> list[float] | None:  # noqa: ANN401
-    """Values of the first vehicle of a stack, or of the only one, that is bad; None where none is."""
+    """Values of the first invalid vehicle of a stack, or of the only one; None if all are valid."""
     if not np.any(bad):
         return None
     where, *arrays = np.broadcast_arrays(bad, *values)

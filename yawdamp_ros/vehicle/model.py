@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from yawdamp_ros.vehicle.tir import MagicFormula
 
 STANDARD_GRAVITY = 9.80665
-"""In m/s^2."""
+"""Standard acceleration of gravity [m/s^2]."""
 
 
 Record = TypeVar("Record", "Axle", "Unit", "Vehicle")

@@ -23,7 +23,7 @@ FASTEST = 40.0
 """Highest plausible speed of a heavy vehicle [m/s]."""
 
 LEAST_RATIO = 0.25
-"""Stiffness over mean axle load below which a tyre carries no side force to speak of [1/rad]."""
+"""Stiffness over mean axle load below which a tyre carries almost no side force [1/rad]."""
 LARGEST_UNIT_RATIO = 1000.0
 """A unit's stiffness over its weight beyond which its mass is in other units [1/rad]; a dolly has 30."""
 LARGEST_MEAN_LOAD = 100.0
@@ -44,7 +44,7 @@ _GUESSES = (
 
 
 class Suspicion(NamedTuple):
-    """One number of a vehicle that is hard to believe.
+    """Implausible number of a vehicle.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Suspicion(NamedTuple):
 
 
 def suspicions(vehicle: Vehicle) -> tuple[Suspicion, ...]:
-    """Find the numbers of a vehicle that are hard to believe.
+    """Find the implausible numbers of a vehicle.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def suspicions(vehicle: Vehicle) -> tuple[Suspicion, ...]:
 
 
 def check_plausible(vehicle: Vehicle, source: str) -> tuple[Suspicion, ...]:
-    """Refuse a vehicle that cannot be; return what is doubtful about it.
+    """Refuse an impossible vehicle; return its implausible values.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def check_plausible(vehicle: Vehicle, source: str) -> tuple[Suspicion, ...]:
 
 
 def warning_lines(found: tuple[Suspicion, ...]) -> list[str]:
-    """One line for each rule that is broken: the first number that does, and how many more do."""
+    """One line for each broken rule: the first number that breaks it, and the count of others."""
     by_rule: dict[str, list[Suspicion]] = {}
     for suspicion in found:
         by_rule.setdefault(suspicion.rule, []).append(suspicion)

@@ -1,4 +1,4 @@
-"""The schemas of vehicle files and schemes, and what is said of a file that does not keep to one."""
+"""The schemas of vehicle files and schemes, and the error for a file that violates one."""
 
 import json
 import math
@@ -13,7 +13,7 @@ from yawdamp_ros.vehicle.errors import VehicleError
 
 
 def check_schema(data: Any, source: str, schema: str = "vehicle.schema.json") -> None:  # noqa: ANN401
-    """Hold the data of a file to a schema of `config`.
+    """Check the data of a file against a schema of `config`.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def _numbers(node: Any, key: str) -> Iterator[tuple[str, float]]:  # noqa: ANN40
 
 
 def _nameless(node: Any, key: str) -> Iterator[str]:  # noqa: ANN401
-    """Keys that are no text, at which jsonschema before 4.18 fails."""
+    """Keys that are not text; jsonschema before 4.18 fails on them."""
     children = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
     for name, child in children:
         if isinstance(node, dict) and not isinstance(name, str):

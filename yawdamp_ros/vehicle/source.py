@@ -9,7 +9,7 @@ from yawdamp_ros.vehicle.load import LARGEST_FILE, VehicleSource, overridden_dat
 
 
 def vehicle_source(vehicle: str | Path, overrides: Sequence[str] = ()) -> VehicleSource:
-    """Read what a vehicle is made from, with the tyre files that it names in it.
+    """Read the source of a vehicle, including its tyre files.
 
     Recordings hold such a source, so that they can be simulated again where those files are not.
 

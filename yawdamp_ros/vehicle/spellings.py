@@ -121,7 +121,7 @@ def canonical(data: Any, source: str) -> Any:  # noqa: ANN401 - of any file
 
 
 def replaced(node: dict[str, Any], key: str) -> None:
-    """Take out of a record what a key that is set takes the place of: its other spellings.
+    """Remove from a record the other spellings of a key that is set.
 
     Parameters
     ----------

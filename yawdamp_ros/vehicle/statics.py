@@ -6,7 +6,7 @@ from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Unit, Vehicle
 
 
 class Supports(NamedTuple):
-    """Places on which a unit rests.
+    """Supports of a unit.
 
     The lead unit rests on two groups of axles, a towed one on its front hitch and its axles.
 
@@ -53,7 +53,7 @@ class StaticLoads(NamedTuple):
 
 
 def supports(unit: Unit) -> Supports:
-    """Return the places on which a unit rests.
+    """Return the supports of a unit.
 
     The steered axles of a lead unit are its front support; where all are steered, or none, it is the
     foremost. A towed unit whose axles do not lie behind its front hitch rests on its axles alone.

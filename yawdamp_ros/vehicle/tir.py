@@ -16,7 +16,7 @@ from yawdamp_ros.files import read_text
 from yawdamp_ros.vehicle.errors import VehicleError
 
 LARGEST_FILE = 1 << 18
-"""Characters of a .tir file."""
+"""Largest .tir file in characters."""
 
 FORMATS = ("PAC2002", "MF-TYRE", "MF_TYRE", "MF_05", "MF_52")
 """Formats of [MODEL] PROPERTY_FILE_FORMAT whose lateral force is that of `magic_formula_force`."""
@@ -26,7 +26,7 @@ UNITS = {
     "FORCE": ("newton", "n"),
     "ANGLE": ("radian", "radians", "rad"),
 }
-"""Units that a file may state; others are refused rather than converted."""
+"""Units that a file may state; others are rejected, not converted."""
 
 REQUIRED = {
     "MODEL": ("PROPERTY_FILE_FORMAT",),

@@ -9,7 +9,7 @@ pi/2 times for an axle of four.
 import math
 
 POUNDS_FORCE_PER_NEWTON = 0.2248
-"""In lbf/N, rounded as the report rounded it: with the exact 0.224809 Table 5 would not come out."""
+"""Conversion [lbf/N], rounded as in the report: the exact 0.224809 would not give Table 5."""
 
 
 def fancher_stiffness(load: float) -> float:
