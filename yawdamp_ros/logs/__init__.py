@@ -1,4 +1,4 @@
-"""Steering logs in, from wherever they come, and sweeps.
+"""Readers of steering logs and drives, and files of sweeps.
 
 The names below load on first use.
 """

@@ -1,4 +1,4 @@
-"""Messages that hold what was measured on a vehicle, and the way to each quantity in them."""
+"""Messages that hold measurements of a vehicle, and the path of each quantity in them."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -41,13 +41,13 @@ MEASURING_TYPES: Mapping[str, tuple[Field, ...]] = MappingProxyType(
         ),
     }
 )
-"""Types that measure, the best source of a quantity first."""
+"""Types that hold measurements, the best source of a quantity first."""
 
 SCALAR_TYPES = ("std_msgs/msg/Float64", "std_msgs/msg/Float32")
-"""Types of one number, which the topic's name explains."""
+"""Types of one number; the topic's name tells its quantity."""
 
 JOINT_TYPE = "sensor_msgs/msg/JointState"
-"""Its joints ``articulation_1`` onwards are articulation angles."""
+"""Type whose joints ``articulation_1`` onwards are articulation angles."""
 
 
 def field_of(message: Any, path: str) -> float:  # noqa: ANN401 - made from a definition
@@ -64,5 +64,5 @@ def field_of(message: Any, path: str) -> float:  # noqa: ANN401 - made from a de
 
 
 def field_names(message: Any) -> list[str]:  # noqa: ANN401 - made from a definition
-    """Names of the joints of a joint state; none of what is none."""
+    """Names of the joints of a joint state; empty for another message."""
     return [str(name) for name in getattr(message, "name", ())]

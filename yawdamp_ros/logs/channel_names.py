@@ -56,9 +56,9 @@ class Named(NamedTuple):
 
 
 def named(name: str) -> Named | None:
-    """Channel and unit that a column or a topic is named after; None where it says neither.
+    """Channel and unit in the name of a column or a topic; None if it tells neither.
 
-    Steering is told by its own rules, for it may be of a hand wheel and bear any name.
+    Steering has its own rules, because it may be of a hand wheel and have any name.
 
     Parameters
     ----------
@@ -80,13 +80,13 @@ def named(name: str) -> Named | None:
 
 
 def listed(names: Sequence[str], limit: int = 12) -> str:
-    """Some names, and that there are more."""
+    """List some names, with a note if there are more."""
     shown = ", ".join(name[:80] for name in names[:limit])
     return shown if len(names) <= limit else f"{shown}, ..."
 
 
 class Wish(NamedTuple):
-    """A channel that somebody named a place for.
+    """Channel with a place that the user named.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ class Wish(NamedTuple):
 
 
 def parse_wish(text: str) -> Wish:
-    """Wish of a text such as ``truck/yaw_rate=-gyro:deg/s``.
+    """Parse a wish such as ``truck/yaw_rate=-gyro:deg/s``.
 
     Raises
     ------

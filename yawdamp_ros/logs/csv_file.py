@@ -1,4 +1,4 @@
-"""CSV files, opened alike for all that is read from them."""
+"""CSV files, opened the same way by all readers."""
 
 import csv
 from contextlib import contextmanager

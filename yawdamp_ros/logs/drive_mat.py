@@ -17,9 +17,9 @@ from yawdamp_ros.logs.steering_csv import TIME_COLUMNS, steering_column
 from yawdamp_ros.logs.steering_log import LARGEST_ANGLE, LONGEST_LOG
 
 LARGEST_FILE = 1 << 30
-"""Bytes."""
+"""Largest size of a file [bytes]."""
 MOST_VALUES = 100_000_000
-"""Numbers of a file: a small one may claim to hold more than any memory."""
+"""Limit on the numbers of a file: a small file may claim to hold more than the memory."""
 _MATLAB_73 = b"MATLAB 7.3"
 
 

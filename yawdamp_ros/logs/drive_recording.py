@@ -20,7 +20,7 @@ from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_sta
 from yawdamp_ros.stepping.time_grid import SECOND
 
 LARGEST_SKEW = 5.0
-"""In s between a stamp and the time of recording; past it the two are of different clocks."""
+"""Largest difference between a stamp and the time of recording on one clock [s]."""
 
 _HELD_TYPES = {*STEERING_TYPES, *MEASURING_TYPES, *SCALAR_TYPES}
 
@@ -149,7 +149,7 @@ class _Reader:
 
 
 def _places(topics: Mapping[str, str], found: Mapping[str, list[RecordedMessage]]) -> dict[str, _Place]:
-    """Place of every channel that names and types tell, the best first."""
+    """Place of every channel found by names and types, the best first."""
     scalars = _scalars(topics)
     inputs = [(name, place) for name, place in scalars if is_input(name)]
     places: dict[str, _Place] = {}

@@ -21,19 +21,19 @@ from yawdamp_ros.plain_yaml import parse_yaml
 
 MAGIC = b"\x89MCAP0\r\n"
 LARGEST_RECORD = 1 << 30
-"""Bytes; a longer record is taken for a broken length."""
+"""Largest record [bytes]; a longer one counts as a corrupt length."""
 
 LARGEST_CHUNK = 1 << 28
-"""Bytes of a chunk once it is decompressed; writers close one after some megabytes."""
+"""Largest decompressed chunk [bytes]; writers close one after some megabytes."""
 
 MOST_EXPANSION = 100
-"""Times its size that a file may hold once it is decompressed, beyond `LARGEST_CHUNK`."""
+"""Largest ratio of decompressed to file size, beyond `LARGEST_CHUNK`."""
 
 LARGEST_METADATA = 1 << 20
-"""Characters of a metadata.yaml."""
+"""Largest metadata.yaml in characters."""
 
 LARGEST_DEFINITION = 1 << 16
-"""Bytes of a message definition, with every dependency and without its remarks."""
+"""Largest message definition with every dependency, without comments [bytes]."""
 
 
 class RecordedMessage(NamedTuple):
@@ -228,7 +228,7 @@ class MessageDecoder:
 
 
 class _Reader(StreamReader):
-    """A reader that stops where zeros begin, as after a crash of the machine: they would be empty records."""
+    """Reader that stops at zeros, as a machine's crash leaves them: they would be empty records."""
 
     def _read_record(self, opcode: int, length: int) -> McapRecord | None:
         if opcode == 0:
@@ -276,7 +276,7 @@ def _unpacked(records: Iterator[McapRecord], size: int) -> Iterator[McapRecord]:
 
 
 def _decompressed(chunk: Chunk) -> Chunk:
-    """A chunk as if it had never been compressed; the library believes any length that a frame claims."""
+    """Chunk without compression, within a limit: the library trusts any length that a frame claims."""
     if chunk.compression not in {"zstd", "lz4"}:
         return chunk
     source = BytesIO(chunk.data)

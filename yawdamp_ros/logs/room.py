@@ -6,11 +6,11 @@ from pathlib import Path
 from yawdamp_ros.logs.errors import LogError
 
 CSV_VALUE = 22
-"""Bytes of a number of a CSV file, with its comma."""
+"""Size of a number of a CSV file, with its comma [bytes]."""
 RUN_UNIT = 330
-"""Bytes of a sample of a unit in a run directory, compressed."""
+"""Compressed size of a sample of a unit in a run directory [bytes]."""
 SPARE = 2
-"""Times the size to come that a disk must have: others write to it, too."""
+"""Required free space over the size of the run: others write to the disk, too."""
 
 
 def size_of_run(samples: int, units: int, *, csv: bool) -> int:
@@ -31,7 +31,7 @@ def size_of_run(samples: int, units: int, *, csv: bool) -> int:
 
 
 def check_room(output: Path, samples: int, units: int) -> None:
-    """Refuse a run that a disk has not twice the room for.
+    """Refuse a run unless the disk has twice the room for it.
 
     Parameters
     ----------

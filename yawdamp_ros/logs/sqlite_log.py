@@ -11,7 +11,7 @@ from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.logs.mcap_log import LARGEST_METADATA, RecordedMessage
 
 LARGEST_MESSAGE = 1 << 24
-"""Bytes; what is longer is no measurement."""
+"""Largest message [bytes]; a longer one is no measurement."""
 
 
 class SqliteLog:
@@ -77,7 +77,7 @@ def is_sqlite(path: Path) -> bool:
 
 
 def _schema(connection: Any) -> Schema:  # noqa: ANN401 - rosbags' record
-    """Definition in the file, or, where an older one has none, that of ROS 2 Jazzy."""
+    """Definition in the file or, for older files without one, that of ROS 2 Jazzy."""
     from rosbags.interfaces import MessageDefinitionFormat  # noqa: PLC0415
     from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415
     from rosbags.typesys.base import TypesysError  # noqa: PLC0415

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     import _csv
 
 TIME_COLUMNS = ("time", "time_s", "t", "timestamp", "time_ms", "time_us", "time_ns")
-"""Names under which the time is looked for, in this order."""
+"""Names of the time column, in order of preference."""
 
 ENOUGH = 1000
-"""Samples that the unit of the times is told by."""
+"""Number of samples that determine the unit of the times."""
 
 
 def read_steering_csv(
@@ -106,7 +106,7 @@ def _parse(
 
 
 def steering_column(header: Sequence[str], column: str | None, path: Path) -> str:
-    """Column that is asked for, else the one that is named after steering.
+    """Return the requested column, else the one named after steering.
 
     Raises
     ------

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 from yawdamp_ros.logs.errors import LogError
 
 LARGEST_ANGLE = 1e4
-"""In rad, of a road wheel or a hand wheel: what is beyond is no steering, and a model would overflow."""
+"""Largest angle of a road wheel or a hand wheel [rad]; a larger one is no steering and would overflow."""
 
 LONGEST_LOG = 1e9
-"""In s, as for the node: what lasts longer holds a clock that was set, not a drive."""
+"""Longest log [s], as for the node; a longer one shows a clock that was set, not a drive."""
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_sta
 from yawdamp_ros.stepping.time_grid import SECOND
 
 LATEST = 2**31 * SECOND
-"""In ns: the seconds of a stamp are 32 bits."""
+"""Largest stamp [ns]: its seconds have 32 bits."""
 
 
 def read_steering_mcap(
@@ -68,7 +68,7 @@ def read_steering_mcap(
 
 
 def steering_topic(topic: str | None, topics: Mapping[str, str], path: Path, warning: str) -> str:
-    """Topic that is asked for, else the one that fits.
+    """Return the requested topic, else the one that fits.
 
     A topic whose name says another quantity, such as ``yaw_rate``, does not.
 

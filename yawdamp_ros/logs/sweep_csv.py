@@ -13,9 +13,9 @@ from yawdamp_ros.files import regular
 from yawdamp_ros.logs.sweep_file import another, describe, unusable
 
 LONGEST_VALUE = 25
-"""Characters of a number and what follows it."""
+"""Characters of a number and its separator."""
 ROWS_AT_ONCE = 10_000
-"""Rows that are read at once."""
+"""Number of rows read at once."""
 
 
 class SweepCsv:

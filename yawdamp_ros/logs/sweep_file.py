@@ -1,4 +1,4 @@
-"""Files that a sweep's answers go to as they come, and that an interrupted sweep goes on from.
+"""Files that receive a sweep's answers, and from which an interrupted sweep continues.
 
 Beside the file lies another, its name with ``.json`` added, that says what the sweep is: vehicle file,
 changes, model, keys, points and measure. A sweep goes on from a file only where all of that is the same and
@@ -16,7 +16,7 @@ from yawdamp_ros.files import read_text
 from yawdamp_ros.logs.errors import LogError
 
 LARGEST_DESCRIPTION = 1 << 22
-"""Characters of what says which sweep a file holds, a vehicle file among it."""
+"""Largest definition of a sweep in characters, with its vehicle file."""
 
 
 class SweepFile(Protocol):
@@ -64,7 +64,7 @@ def describe(path: Path, definition: Mapping[str, object]) -> bool:
 
 
 def another(path: Path) -> LogError:
-    """Error of a file that is of another sweep."""
+    """Return the error for a file of another sweep."""
     return LogError(path, "is there and is not of this sweep; expected a new name, or the same sweep")
 
 

@@ -1,6 +1,6 @@
 """Sweeps as directories of Parquet files, which pandas, Dask and others read as one table.
 
-A Parquet file cannot be appended to, so that rows come in parts; a part that is there is whole.
+A Parquet file cannot be appended to, so that rows come in parts; an existing part is complete.
 """
 
 import time

@@ -1,10 +1,10 @@
-"""Units of the times in a table, which rarely say theirs."""
+"""Units of the times in a table, which rarely names them."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
 TELLING = 10
-"""Samples from which their mean interval tells the unit."""
+"""Number of samples whose mean interval determines the unit."""
 
 
 class TimeUnit(NamedTuple):

@@ -1,6 +1,6 @@
 """Runs on disk: outputs and their encoding, written, read and compared.
 
-The names below load on first use: a node that writes a run does not need what reads one. Only what encodes
+The names below load on first use: a node that writes a run needs no reader. Only the code that encodes
 messages imports ROS.
 """
 

@@ -11,7 +11,7 @@ from yawdamp_ros.runs.run_writer import RunWriter, SerialisedMessage
 QUEUE_LENGTH = 6_000
 """Samples that may wait for the disk, a minute at 100 Hz."""
 FLUSH_PERIOD = 0.5
-"""Longest time in s that a message stays where a kill would lose it."""
+"""Longest time that a message stays in memory, where a kill would lose it [s]."""
 
 
 class BackgroundWriter:
@@ -52,7 +52,7 @@ class BackgroundWriter:
 
     @property
     def lost(self) -> int:
-        """Messages that are not in the file, as far as is known."""
+        """Known number of messages that are not in the file."""
         return self._lost_before_queue + self._lost_behind_queue
 
     def offer(self, messages: Sequence[SerialisedMessage]) -> None:

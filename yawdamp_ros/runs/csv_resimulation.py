@@ -1,4 +1,4 @@
-"""A response, run again from its own steering."""
+"""Resimulation of a response from its own steering."""
 
 from typing import NamedTuple
 
@@ -40,7 +40,7 @@ class Mismatch(NamedTuple):
 
 
 def repeat(response: Response, model: LinearModel) -> Response:
-    """Run again what a response recorded: the same model, from rest, under the same steering.
+    """Repeat the run of a response: the same model, from rest, under the same steering.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Values that are not those recorded, judged by the size of the motion that they are part of."""
+"""Deviations from recorded values, judged by the size of their motion."""
 
 import re
 from collections.abc import Mapping
@@ -28,7 +28,7 @@ class Difference(NamedTuple):
 
 
 class Deviations:
-    """Deviations of a run, to be judged once the size of the motion over all of it is known."""
+    """Deviations of a run, judged when the size of the whole motion is known."""
 
     def __init__(self) -> None:
         # Only a deviation larger than all before can be the first beyond a bound.
@@ -40,14 +40,14 @@ class Deviations:
         return bool(self._rising)
 
     def note(self, topic: str, time: float, field: str, recorded: float, repeated: float) -> None:
-        """Take a recorded value and another that came out."""
+        """Add a recorded value and its repetition."""
         deviation = abs(repeated - recorded)
         rising = self._rising.setdefault(quantity(topic, field), [])
         if not rising or not deviation <= rising[-1][0]:  # said this way round, what is no number counts, too
             rising.append((deviation, Difference(topic, time, field, repr(recorded), repr(repeated))))
 
     def first_beyond(self, tolerance: float, sizes: Mapping[str, float]) -> Difference | None:
-        """First value that is off by more than a share of the size of its quantity.
+        """First value that deviates by more than a share of the size of its quantity.
 
         Parameters
         ----------
@@ -65,5 +65,5 @@ class Deviations:
 
 
 def quantity(topic: str, field: str) -> str:
-    """Name of what a field holds, the same for all units and joints: their values are of one size."""
+    """Name of a field's quantity, the same for all units and joints: their values have one size."""
     return f"{topic.rsplit('/', 1)[-1]} {_INDEX.sub('', field)}"

@@ -1,4 +1,4 @@
-"""From samples to messages, each serialised once for whoever wants it."""
+"""From samples to messages, each serialised once for all receivers."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
@@ -42,7 +42,7 @@ class Noise(NamedTuple):
 
     @classmethod
     def of(cls, settings: SimParameters) -> "Noise":
-        """Noise that settings ask for."""
+        """Return the noise of the settings."""
         return cls(
             settings.yaw_stddev,
             settings.yaw_rate_stddev,
@@ -62,7 +62,7 @@ class Noise(NamedTuple):
 
 
 class Jump(NamedTuple):
-    """A jump of the time stamps: of this step and all that follow.
+    """Jump of the time stamps of a step and all later ones.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ class Encoded(NamedTuple):
 
 
 class EncodedSink(Protocol):
-    """Takes samples with their messages: publishers, a recording."""
+    """Receiver of samples with their messages: publishers, a recording."""
 
     def write(self, encoded: Encoded) -> None:
         """Take a sample."""
@@ -116,7 +116,7 @@ class EncodedSink(Protocol):
 
 
 class Encoder:
-    """Serialises samples, and hands each to those that publish it or write it down.
+    """Serialises samples, and hands each to the publishers and the recording.
 
     Parameters
     ----------
@@ -188,18 +188,18 @@ class Encoder:
         self._templates = Templates(blanks)
 
     def go_on_from(self, step: int, steering_angle: float) -> None:
-        """Take up a run after a sample: the steering rate is told from one to the next."""
+        """Resume a run after a sample: the steering rate is the difference between two samples."""
         self._last_steering = step, steering_angle
 
     def follow(self, clock: int) -> None:
-        """Let the next sample bear a clock's time in ns, if it would be more than a period from it."""
+        """Set the next stamp to a clock's time [ns] if it would differ by more than a period."""
         last = self._last_speed[0]
         step = last + self._grid.steps_per_sample
         if jump := self.stamps.follow(step, clock, self._grid.period_ns):
             self._jump = Jump(last + 1, jump)
 
     def jump(self, jump: Jump) -> None:
-        """Let the stamps jump as they did when the run was recorded."""
+        """Repeat a recorded jump of the stamps."""
         self.stamps.jump(jump.nanoseconds)
         self._jump = jump
 
@@ -210,7 +210,7 @@ class Encoder:
             sink.write(encoded)
 
     def close(self) -> None:
-        """Let all that it hands to finish."""
+        """Close all sinks."""
         for sink in self.sinks:
             sink.close()
 
@@ -230,7 +230,7 @@ class Encoder:
         return Encoded(sample, stamps, self._names, messages, self.stamps.of, jump, frames)
 
     def _made(self, sample: Sample, steps: Sequence[int]) -> dict[str, FloatArray]:
-        """Quantities that are not in a sample as they are."""
+        """Quantities that are derived from samples."""
         half = half_turns(sample.heading)
         velocity = sample.velocity if self._twist == TWISTS[0] else _small_angles(sample)
         known = {
@@ -268,7 +268,7 @@ class Encoder:
         return np.array(rates)
 
     def _longitudinal(self, sample: Sample, steps: Sequence[int]) -> FloatArray:
-        """Longitudinal acceleration of every unit; where all follow one speed, from sample to sample."""
+        """Longitudinal acceleration of every unit; a common speed is differentiated from sample to sample."""
         if "longitudinal_acceleration" in sample.extra:
             return sample.extra["longitudinal_acceleration"]
         speeds = np.atleast_1d(sample.velocity.real[..., 0]).tolist()
@@ -287,7 +287,7 @@ class Encoder:
         return (value - last[1]) / ((step - last[0]) * self._grid.step_ns / SECOND)
 
     def _blank(self, output: Output, index: int, name: str) -> Blank:
-        """The message of a unit, a joint or the run, and where in it which numbers go."""
+        """Message of a unit, a joint or the run, and the places of its numbers."""
         message = message_class(output.type_name)()
         if prepare := self._PREPARATIONS.get(output.type_name):
             prepare(self, message, name.rpartition("/")[0])
@@ -303,7 +303,7 @@ class Encoder:
         return Blank(message, places)
 
     def _column(self, name: str, width: int) -> int:
-        """First of the columns of values that hold a quantity."""
+        """First column of the values of a quantity."""
         if name not in self._columns:
             self._columns[name] = self._width
             self._width += width

@@ -18,7 +18,7 @@ from yawdamp_ros.vehicle.shape import hitch_frame
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 _ROTATION = 40
-"""Bytes from a transform's first number to the z of its quaternion, which w follows."""
+"""Bytes from a transform's first number to the z of its quaternion; w follows it."""
 
 
 class Frames:
@@ -43,7 +43,7 @@ class Frames:
         self._joints = len(joints)
 
     def moving(self, sample: Sample, stamps: Sequence[int]) -> list[bytes]:
-        """Messages of what moves, one for each instant of a sample, with stamps in ns."""
+        """Messages of the moving frames, one for each instant of a sample, with stamps [ns]."""
         count = len(stamps)
         x, y, heading = (
             np.reshape(values, (count, -1))[:, 0]
@@ -59,7 +59,7 @@ class Frames:
         ]
 
     def fixed(self, stamp: int) -> bytes:
-        """Message of what does not move, from a hitch to the unit that it tows; stamp in ns."""
+        """Message of the fixed frames, from a hitch to the unit that it tows; stamp [ns]."""
         return self._fixed.message(stamp)
 
 

@@ -3,7 +3,7 @@
 import struct
 
 JUMP = "time_jump"
-"""Topic of the jumps, in ns: each holds for all that follows it."""
+"""Topic of the jumps [ns]; each applies to all later messages."""
 INT64 = "std_msgs/msg/Int64"
 
 

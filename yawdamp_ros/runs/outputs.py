@@ -1,4 +1,4 @@
-"""Everything that comes out of a run, in one table.
+"""All outputs of a run in one table.
 
 Topics, channels of recordings, columns of CSV files, curves of pictures and the table in the manual follow
 from it. No ROS is needed to read it.
@@ -75,7 +75,7 @@ class Output(NamedTuple):
         return [self.name]
 
     def values(self, sample: Sample) -> FloatArray:
-        """Its own quantity, of the shapes of `Sample`."""
+        """Quantity of this output, in the shapes of `Sample`."""
         return quantity(sample, self.name) if self.value is None else self.value(sample)
 
 
@@ -138,7 +138,7 @@ OUTPUTS: tuple[Output, ...] = (
     ),
     Output("articulation", Of.JOINT, "articulation", "rad"),
 )
-"""An output is added here; one that only some models have is one of those models' `quantity_names`, too."""
+"""Outputs. A new one is added here; if only some models have it, also to their `quantity_names`."""
 
 OF_EVERY_MODEL = (
     frozenset(Sample._fields)
@@ -151,7 +151,7 @@ OF_EVERY_MODEL = (
 
 
 def available(quantity_names: Iterable[str]) -> list[Output]:
-    """Outputs of a motion that has these quantities besides those of every model."""
+    """Outputs of a motion with these quantities besides those of every model."""
     known = OF_EVERY_MODEL.union(quantity_names)
     return [
         output
@@ -180,6 +180,6 @@ def columns(outputs: Iterable[Output], unit_names: Sequence[str]) -> list[tuple[
 
 
 def quantity(source: Sample | Response, name: str) -> FloatArray:
-    """A quantity of a sample or a response, wherever it has it."""
+    """Quantity of a sample or a response: a field, or an element of `extra`."""
     values: FloatArray = source.extra[name] if name in source.extra else getattr(source, name)
     return values

@@ -1,4 +1,4 @@
-"""A run on disk that explains itself, alike for the node and for offline runs."""
+"""A run on disk that explains itself, the same for the node and for offline runs."""
 
 import json
 import math
@@ -25,9 +25,9 @@ from yawdamp_ros.vehicle import VehicleSource
 from yawdamp_ros.version import VERSION
 
 FRAME_CHANNELS = {"tf": Channel("/tf", TF_TYPE), "tf_static": Channel("/tf_static", TF_TYPE, latched=True)}
-"""Frames are of the whole graph: these names are not resolved."""
+"""Topics of frames, whose names are global and are not resolved."""
 EVENTS = "events"
-"""Topic of what happens to the vehicle."""
+"""Topic of the vehicle's events."""
 EVENT_TYPE = "diagnostic_msgs/msg/DiagnosticStatus"
 COMMAND = "steering"
 """Topic of the steering commands as received; that of the road wheels is `applied_topic`."""
@@ -87,7 +87,7 @@ class Recipe:
         )
 
     def open(self, directory: Path, settings: SimParameters) -> RunWriter:
-        """Start a run in a directory, from this instant of the motion on, under the settings of now.
+        """Start a run in a directory from this instant of the motion on, with the present settings.
 
         Raises
         ------
@@ -161,7 +161,7 @@ class RunFile:
 
 
 def recorded_messages(encoded: Encoded) -> list[SerialisedMessage]:
-    """Messages of a sample with what led to it: commands, inputs and outputs in the order of time."""
+    """Messages of a sample: commands, inputs and outputs in the order of time."""
     found: list[SerialisedMessage] = []
     before = _before(encoded)
     pending = next(before, None)
@@ -198,7 +198,7 @@ def _before(encoded: Encoded) -> Iterator[SerialisedMessage]:
 
 
 def event_message(event: Event) -> Any:  # noqa: ANN401 - a generated message
-    """Message of an event: its name, where, and an error where the motion ends with it.
+    """Message of an event: its name, its place, and an error if it ends the motion.
 
     Parameters
     ----------

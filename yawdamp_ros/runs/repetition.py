@@ -1,4 +1,4 @@
-"""Results of repeating a run, alike for recordings and CSV files."""
+"""Results of repeating a run, the same for recordings and CSV files."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ CLOSE = f"{TOLERANCE:.0e} of the motion".replace("e-0", "e-")
 
 @dataclass(frozen=True)
 class Difference:
-    """The first value that is not what it was."""
+    """First value that differs."""
 
     where: str
     field: str
@@ -56,7 +56,7 @@ class Answer:
 
 
 def repeat_recording(path: Path, progress: Callable[[float], object] = lambda _: None) -> Answer:
-    """Run a recorded run again from what it contains.
+    """Repeat a recorded run from its own contents.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def repeat_recording(path: Path, progress: Callable[[float], object] = lambda _:
 
 
 def repeat_csv(path: Path, model: LinearModel) -> Answer:
-    """Run a CSV file of every step again by a model that it does not hold.
+    """Repeat a CSV file of every step by a model that the file does not name.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A recorded run, run again from what it contains, and compared value by value."""
+"""Resimulation of a recorded run from its own contents, compared value by value."""
 
 import json
 import struct
@@ -25,10 +25,10 @@ from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.vehicle import parse_vehicle
 
 SHORTEST_STEP = 1000
-"""In ns, as for the node."""
+"""Shortest step [ns], as for the node."""
 
 MOST_STEPS = 10_000_000
-"""Steps from one sample to the next, as for the node: at its shortest step and its lowest rate."""
+"""Limit on the steps between samples, as for the node at its shortest step and lowest rate."""
 
 Value = float | int | str | bool
 
@@ -122,7 +122,7 @@ class Resimulation:
 
     @property
     def agrees(self) -> bool:
-        """True if values were compared and all are as promised."""
+        """True if values were compared and all keep the promise."""
         return self.difference is None and self.samples > 0
 
     @property
@@ -189,7 +189,7 @@ class Resimulation:
             self.difference = self._deviations.first_beyond(TOLERANCE, self._sizes())
 
     def _settings(self, parameters: Mapping[str, Any]) -> SimParameters:
-        """Settings that show in the messages; earlier versions wrote other ones, too."""
+        """Settings that affect the messages; earlier versions wrote other ones, too."""
         shown = [
             field.name
             for field in fields(SimParameters)
@@ -293,7 +293,7 @@ def _values(message: Any, path: str = "") -> Iterator[tuple[str, Value]]:  # noq
 
 
 class _Recorded:
-    """The source of a run that is run again: inputs with the steps at which they took effect.
+    """Source of a repeated run: inputs with the steps at which they took effect.
 
     Parameters
     ----------
@@ -307,7 +307,7 @@ class _Recorded:
         self._others: list[AppliedInput] = []
 
     def add(self, inputs: Sequence[AppliedInput]) -> None:
-        """Have inputs act when their steps come."""
+        """Schedule inputs for their steps."""
         for applied in inputs:
             (self._steering if applied.name == "steering" else self._others).append(applied)
 

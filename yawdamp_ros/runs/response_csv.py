@@ -12,7 +12,7 @@ from yawdamp_ros.stepping import Motion, Sample, TimeGrid
 
 
 def ground_columns(unit_names: Sequence[str]) -> list[str]:
-    """Last columns of a run: speed of the lead unit, and where every unit is."""
+    """Last columns of a run: speed of the lead unit, and position of every unit."""
     return ["speed", *(f"{unit}/{axis}" for unit in unit_names for axis in ("x", "y"))]
 
 

@@ -95,7 +95,7 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
 
 
 def _ground(table: FloatArray, places: Mapping[str, int], units: Sequence[str]) -> FloatArray:
-    """Columns x and y of every unit; not a number where the file holds no paths."""
+    """Columns x and y of every unit; NaN if the file holds no paths."""
     names = ground_columns(units)[1:]
     if not places.keys() >= set(names):
         return np.full((len(table), len(names)), np.nan)

@@ -19,7 +19,7 @@ from yawdamp_ros.stepping import Event, Response
 from yawdamp_ros.stepping.time_grid import SECOND
 
 EVENTS = "events"
-"""Topic of what happens to the vehicle."""
+"""Topic of the vehicle's events."""
 ERROR = 2
 """Level of an event with which the motion ends."""
 RUN = "yawdamp_ros"

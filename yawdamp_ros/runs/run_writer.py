@@ -13,7 +13,7 @@ from yawdamp_ros.logs import LogError
 from yawdamp_ros.runs.message_definitions import MessageDefinition, message_definition
 
 CHUNK_SIZE = 4 * 1024 * 1024
-"""Bytes. The writer keeps an index entry of every chunk: small ones would fill the memory of a long run."""
+"""Size of a chunk [bytes]. Every chunk has an index entry in memory, so that small ones would fill it."""
 QUEUE_DEPTH = 10
 """Queue depth of every publisher, as recorded, and of every subscription."""
 _INFINITE = {"sec": 9223372036, "nsec": 854775807}
@@ -156,7 +156,7 @@ class RunWriter:
             self._last_time = max(self._last_time, *times)
 
     def flush(self) -> None:
-        """Hand what has been written to the operating system, so that a kill does not lose it."""
+        """Flush written data to the operating system, so that a kill does not lose it."""
         try:
             self._writer.flush()
             self._check_place()

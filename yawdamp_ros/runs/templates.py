@@ -1,4 +1,4 @@
-"""Messages serialised once, into which numbers are then written: much faster than serialising each."""
+"""Messages serialised once and then filled with numbers: much faster than serialising each."""
 
 import struct
 from collections.abc import Mapping, Sequence
@@ -12,7 +12,7 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.time_grid import SECOND
 
 ENCAPSULATION = 4
-"""Bytes before the body of a message in CDR, from which on its fields are aligned."""
+"""Bytes before the body of a message in CDR; fields are aligned from the body on."""
 ALIGNMENT = 8
 
 
@@ -83,7 +83,7 @@ class Templates:
 
 
 def _serialised(blank: Blank) -> tuple[bytes, list[int]]:
-    """A message in CDR, and where in it each double is that is to be filled in."""
+    """Message in CDR, and the place of each double to be filled in."""
     # Numbers that occur nowhere else show where their fields are.
     marks = [1e300 + 1e290 * index for index in range(len(blank.columns))]
     for path, mark in zip(blank.columns, marks, strict=True):
