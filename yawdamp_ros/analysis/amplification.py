@@ -1,4 +1,4 @@
-"""Rearward amplification: how much harder than the first unit the last one swings."""
+"""Rearward amplification: swing of the last unit over that of the first."""
 
 from typing import NamedTuple
 
@@ -12,13 +12,13 @@ from yawdamp_ros.dynamics import LinearModel
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 FREQUENCIES = np.concatenate([[0.0], np.geomspace(0.01, 4.0, 400)])
-"""Searched for the largest amplification, in Hz: from a steady turn to faster than any driver steers."""
+"""Frequencies of the search, from a steady turn to faster than any driver steers [Hz]."""
 
 
 BoolArray = npt.NDArray[np.bool_]
 
 _HALVINGS = 50
-"""Bisections of the bracket of a peak, down to a share of 1e-15 of it."""
+"""Bisections of a peak's bracket; they leave 1e-15 of its length."""
 
 
 class PeakAmplification(NamedTuple):

@@ -29,7 +29,7 @@ class Answers:
     spans: FloatArray | None = None
 
     def only(self) -> float | None:
-        """Value of a stack of one, None where there is none.
+        """Value of a stack of one; None without a value.
 
         Raises
         ------

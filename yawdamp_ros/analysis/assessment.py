@@ -21,7 +21,7 @@ from yawdamp_ros.vehicle import Vehicle
 THRESHOLDS = (0.05, 1.5)
 """Static rollover thresholds that a road vehicle can have [g]; trucks have 0.25 to 0.6."""
 ROLLOVER = ("static_rollover_threshold", "rear_static_rollover_threshold")
-"""Measures that a threshold which is given stands for."""
+"""Measures that a given threshold replaces."""
 
 
 @dataclass(frozen=True)
@@ -270,7 +270,7 @@ def outcome(findings: Iterable[Finding], scheme: Scheme) -> Outcome:
 
 
 def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Finding, Finding], ...]:
-    """Take every measure that both models have by the linear and by the nonlinear one.
+    """Take every measure that both models have, by each of them.
 
     Parameters
     ----------
@@ -295,7 +295,7 @@ def differences(vehicle: Vehicle, speed: float | None = None) -> tuple[tuple[Fin
 
 
 def failed(findings: Iterable[Finding]) -> bool:
-    """Tell if any limit is failed, or met in one reading of an ambiguous measure only.
+    """Return whether a limit is failed, or met only in one reading of an ambiguous measure.
 
     Parameters
     ----------
@@ -317,7 +317,7 @@ def failed(findings: Iterable[Finding]) -> bool:
 def _find(
     name: str, vehicle: Vehicle, model: str, speed: float | None, srt: float | None
 ) -> tuple[Finding, tuple[float, float] | None]:
-    """Value of a measure, and the lowest and the highest that it could be read as where it is ambiguous."""
+    """Value of a measure, and the lowest and highest reading of an ambiguous one."""
     measure = MEASURES[name] if name in MEASURES else VEHICLE_MEASURES[name]
     at = measure.speed_for(vehicle, speed)
     span = None
@@ -354,7 +354,7 @@ def _judged(
     values: Mapping[str, float | None],
     spans: Mapping[str, tuple[float, float]],
 ) -> Finding:
-    """Hold a value to its limits."""
+    """Check a value against its limits."""
     easiest = len(scheme.levels) - 1
     chosen = easiest if level is None else level
     limits = tuple(each.limit(chosen, values) for each in finding.requirements)

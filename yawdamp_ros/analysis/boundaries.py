@@ -1,4 +1,4 @@
-"""Boundaries of stability as something varies, by root finding between the points of a scan."""
+"""Boundaries of stability over a parameter, by root finding between the points of a scan."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ from yawdamp_ros.vehicle import Vehicle
 Kind = Literal["monotonic", "oscillatory", "jump"]
 
 _JUMP = 1e-3
-"""Real part in 1/s that no root has: there the eigenvalue has gone through infinity, not through 0."""
+"""Real part that no root has [1/s]: there the eigenvalue passes infinity, not 0."""
 
 
 @dataclass(frozen=True)
 class Boundary:
-    """A value at which the rightmost eigenvalue changes sides.
+    """Value at which the rightmost eigenvalue changes sides.
 
     Attributes
     ----------

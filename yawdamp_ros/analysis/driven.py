@@ -1,4 +1,4 @@
-"""Measures that the nonlinear model is driven through: tyres slide, wheels lift, brakes lock."""
+"""Measures from driven runs of the nonlinear model: tyres slide, wheels lift, brakes lock."""
 
 import math
 from collections.abc import Callable
@@ -26,11 +26,11 @@ EVERY = 20
 APPROACH = 3.0
 """Straight way before a turn [m]."""
 GAIN = 0.5
-"""Direction that a driver aims at by the distance from the path [rad/m]."""
+"""Driver's change of direction for a distance from the path [rad/m]."""
 CROSSFALL = 0.03
 """Crossfall of the straight road of PBS's tracking-ability test, whose roughness is left out."""
 SPLIT_FRICTION = (0.5, 0.25)
-"""Left and right: at least 0.5, and twice the other (UN R13, annex 13)."""
+"""Friction left and right: at least 0.5, and half of that (UN R13, annex 13)."""
 HARD_BRAKING = 5.0
 """Deceleration demanded, the service brake's of UN R13 [m/s^2]."""
 LONGEST_STOP = 30.0
@@ -285,7 +285,7 @@ def _driven(  # noqa: PLR0913, PLR0917 - the whole of one run
 
 
 def _swept(vehicle: Vehicle, found: Outputs, direction: float) -> tuple[FloatArray, FloatArray]:
-    """Least and most of all corners of all bodies across a direction, at every sample [m]."""
+    """Smallest and largest lateral position of all bodies' corners across a direction, at each sample [m]."""
     across = []
     for index, unit in enumerate(complete(vehicle).units):
         tail, nose = extent(unit)

@@ -1,4 +1,4 @@
-"""The modes of a linear model: how fast, how damped, and which units move."""
+"""The modes of a linear model: frequency, damping and moving units."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 ComplexArray = npt.NDArray[np.complex128]
 
 MOVING = 0.5
-"""Share of the largest yaw rate from which on a unit is said to move in a mode."""
+"""Share of the largest yaw rate above which a unit counts as moving in a mode."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ FACTORS: Mapping[str, tuple[float, str]] = MappingProxyType(
         "kg": (1e-3, "t"),
     }
 )
-"""By SI unit, the factor and the unit that it leads to."""
+"""Factor and engineering unit for each SI unit."""
 
 
 def converted(value: float | None, unit: str, system: str) -> tuple[float | None, str]:

@@ -4,7 +4,7 @@ from yawdamp_ros.errors import YawdampError
 
 
 class AnalysisError(YawdampError):
-    """A question that this model cannot answer.
+    """Question that the model cannot answer.
 
     Examples
     --------

@@ -47,7 +47,7 @@ class SingleLaneChange:
 
     @property
     def displacement(self) -> float:
-        """Sideways, ``amplitude / (2 pi frequency^2)``, in m."""
+        """Lateral displacement, ``amplitude / (2 pi frequency^2)`` [m]."""
         return self.amplitude / (2.0 * np.pi * self.frequency**2)
 
     def path(self, time: FloatArray) -> FloatArray:
@@ -283,7 +283,7 @@ class LaneChangeRuns:
 
 
 def _summed(velocity: FloatArray) -> FloatArray:
-    """Way from the start in m, by the trapezoidal rule, shape (k, m)."""
+    """Distance from the start, by the trapezoidal rule, shape (k, m) [m]."""
     way = np.zeros_like(velocity)
     np.cumsum(0.5 * SAMPLE_PERIOD * (velocity[:, 1:] + velocity[:, :-1]), axis=1, out=way[:, 1:])
     return way

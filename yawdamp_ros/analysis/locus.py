@@ -1,4 +1,4 @@
-"""Eigenvalues as one thing about the vehicle varies."""
+"""Eigenvalues over one parameter of the vehicle."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The measures that a combination is judged by: what each is, and at which speed.
+"""The measures of a combination, with definition and speed.
 
 `MEASURES` are those of a linear model, whole stacks of vehicles at once; `VEHICLE_MEASURES` take one vehicle
 at a time, by its geometry, its powertrain or the nonlinear model. Limits are data: see `schemes`.
@@ -370,7 +370,7 @@ VEHICLE_MEASURES: Mapping[str, VehicleMeasure] = MappingProxyType(
 ALL_MEASURES: Mapping[str, Measure | VehicleMeasure] = MappingProxyType({**MEASURES, **VEHICLE_MEASURES})
 
 NONLINEAR = "nonlinear"
-"""Name of the model that measures can be taken by besides the linear ones."""
+"""Name of the model for measures besides the linear ones."""
 NONLINEAR_MEASURES = (
     "least_damping_ratio",
     "yaw_damping_coefficient",

@@ -1,4 +1,4 @@
-"""Linear motion that nothing drives any more, at many instants at once: exact, with no step to choose."""
+"""Free linear motion at many instants at once: exact, with no step to choose."""
 
 import math
 
@@ -14,7 +14,7 @@ def free_motion(
 ) -> FloatArray:
     """Outputs of ``x' = matrix x``, ``y = rows x`` at evenly spaced instants, for a stack of systems.
 
-    A steering that is itself the solution of a linear equation, as a sine is, may be part of the state.
+    A steering that solves a linear equation itself, such as a sine, may be part of the state.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Offtracking: how far beside the path of the steer axle the last axle runs."""
+"""Offtracking: lateral distance of the last axle from the path of the steer axle."""
 
 import functools
 from typing import NamedTuple

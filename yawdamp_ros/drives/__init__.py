@@ -1,6 +1,6 @@
-"""Recorded drives as arrays: their channels, what a model makes of them, and what they say of a vehicle.
+"""Recorded drives as arrays: channels, prediction, comparison and identification.
 
-The names below load on first use: a reader of drives does not need what fits one.
+The names below load on first use: a reader of drives does not need the fitting.
 """
 
 from typing import TYPE_CHECKING

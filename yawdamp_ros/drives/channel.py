@@ -111,7 +111,7 @@ class Channel:
         return 1.0 / step if step > 0.0 else 0.0
 
     def held(self, times: FloatArray) -> FloatArray:
-        """Newest value at each time in s; the first before there is one."""
+        """Newest value at each time [s]; the first value before the first sample."""
         places = np.searchsorted(self.times, times, side="right") - 1
         held: FloatArray = self.values[np.maximum(places, 0)]
         return held

@@ -12,11 +12,11 @@ from yawdamp_ros.drives.matching import Match
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
 LONGEST_LAG = 1.0
-"""In s: a measurement that is later than that belongs to another drive."""
+"""Largest lag of a measurement [s]; a later one belongs to another drive."""
 WINDOW = 10.24
-"""In s, of the spectra: they tell 0.1 Hz from 0.2 Hz."""
+"""Length of the segments of the spectra [s]: they resolve 0.1 Hz."""
 BANDS = ((0.0, 0.25), (0.25, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 5.0))
-"""In Hz, those of a table."""
+"""Frequencies of a table [Hz]."""
 FEWEST_SAMPLES = 20
 _POWER_SHARE = 0.95
 
@@ -79,7 +79,7 @@ class ChannelComparison:
     coherence: FloatArray
 
     def in_band(self, low: float, high: float) -> float:
-        """Mean coherence from a frequency to another in Hz; not a number where none was measured."""
+        """Mean coherence between two frequencies [Hz]; NaN without a measured one."""
         kept = (self.frequencies >= low) & (self.frequencies < high)
         return float(self.coherence[kept].mean()) if kept.any() else float("nan")
 

@@ -1,4 +1,4 @@
-"""A recorded drive: what steered a vehicle, how fast it went, and what was measured on it."""
+"""A recorded drive: steering, speed and measurements of a vehicle."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -97,7 +97,7 @@ class Drive:
         return max((float(channel.times[-1]) for channel in self.channels.values()), default=0.0)
 
     def speed(self, start: float) -> Channel | None:
-        """Speed, or what the acceleration makes of a speed at the start in m/s; None without both."""
+        """Speed, or the integral of the acceleration from a first speed [m/s]; None without both."""
         if "speed" in self or "acceleration" not in self:
             return self.channels.get("speed")
         given = self["acceleration"]
@@ -146,7 +146,7 @@ class Drive:
         )
 
     def described(self) -> list[str]:
-        """One line for each channel: what was taken for it."""
+        """One line for each channel with its source."""
         return [
             f"{channel.name}: {channel.source}, {len(channel.times)} samples, {channel.rate:.3g} Hz, "
             f"{channel.values.min():.4g} to {channel.values.max():.4g} {channel.unit}"

@@ -37,7 +37,7 @@ QUANTILE = 1.959963984540054
 SENSOR_OFFSET = "offset of "
 """Prefix of the name of a sensor's offset."""
 CLOSE = 0.98
-"""Correlation from which two parameters cannot be told apart."""
+"""Correlation above which two parameters cannot be distinguished."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class Identification:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings of what the drive cannot tell."""
+        """Warnings about parameters that the drive does not determine."""
         told = [
             f"{each.parameter.name} cannot be seen in this drive: anything from {each.low:.4g} to "
             f"{each.high:.4g} {each.parameter.unit}".rstrip()

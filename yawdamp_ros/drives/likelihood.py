@@ -18,7 +18,7 @@ MOST_ROUNDS = 6
 MOST_SAMPLES = 40_000
 """Limit on the samples of a series; a longer series is fitted by means over neighbours."""
 WIDE = 3.0
-"""Standard deviation of a coordinate before the drive: it keeps what the drive does not show finite."""
+"""Prior standard deviation of a coordinate: it keeps undetermined coordinates finite."""
 LAGS = 200
 """Lags at which the robust intervals look for correlation that the noise model left."""
 
@@ -239,14 +239,14 @@ def _together(series: Sequence[Series]) -> list[list[int]]:
 
 
 def _means(values: FloatArray) -> FloatArray:
-    """Means of neighbours along the first axis, of so many that few enough are left."""
+    """Means of neighbours along the first axis, so that at most `MOST_SAMPLES` are left."""
     every = -(-len(values) // MOST_SAMPLES)
     kept = values[: len(values) // every * every]
     return np.asarray(kept.reshape(-1, every, *values.shape[1:]).mean(axis=1), dtype=np.float64)
 
 
 def _inverse(jacobian: FloatArray) -> FloatArray:
-    """Covariance by a Jacobian of whitened residuals; of what it does not show, very large."""
+    """Covariance by a Jacobian of whitened residuals; very large for undetermined coordinates."""
     information = jacobian.T @ jacobian
     scale = np.sqrt(np.maximum(np.diag(information), 1e-300))
     values, vectors = np.linalg.eigh(information / np.outer(scale, scale))

@@ -1,4 +1,4 @@
-"""Which measured channel belongs to which output of a vehicle."""
+"""Matching of measured channels to the outputs of a vehicle."""
 
 from typing import NamedTuple
 

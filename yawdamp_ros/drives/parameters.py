@@ -1,4 +1,4 @@
-"""Parameters that a drive may tell: how each changes a vehicle and its steering."""
+"""Parameters that a drive can determine, and their effect on a vehicle and its steering."""
 
 import math
 import re
@@ -17,14 +17,14 @@ FACTORS = ("stiffness", "inertia")
 """Factors of every cornering stiffness, or every yaw inertia, of the vehicle; after a dot, of one unit."""
 STEERING = ("steering_ratio", "steering_offset", "steering_time_constant", "steering_delay")
 FRICTION = "friction"
-"""Key of the road's friction, which the nonlinear model alone knows."""
+"""Key of the road's friction, which only the nonlinear model has."""
 DEFAULT = ("stiffness", "inertia", "steering_offset")
 _POSITIVE = re.compile(r".*\.(mass|yaw_inertia|cornering_stiffness|tyre_load)|friction|.*friction")
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that is to be identified.
+    """Number to be identified.
 
     Attributes
     ----------

@@ -18,9 +18,9 @@ from yawdamp_ros.stepping.held_input import HIGHEST_SPEED, LOWEST_FOLLOWED
 from yawdamp_ros.vehicle import Vehicle
 
 STEP_SIZE = 0.01
-"""In s: a hundredth of the period of anything that a heavy vehicle does."""
+"""Step size [s]: a hundredth of the shortest period in a heavy vehicle's motion."""
 SPEED_RATIO = 1.01
-"""From one speed for which matrices are computed to the next; between two they are interpolated."""
+"""Ratio of neighbouring speeds with computed matrices; between two they are interpolated."""
 MOST_BLOCKS = 256
 
 
