@@ -41,7 +41,7 @@ class InputReading(NamedTuple):
 
 
 class Readings(NamedTuple):
-    """State of the simulator at one look; counts are since its start.
+    """State of the simulator at one instant; counts are since its start.
 
     Attributes
     ----------
@@ -105,7 +105,7 @@ class Readings(NamedTuple):
 
 
 class Diagnosis:
-    """Turns readings into diagnostics: counts that grew since the last look are what warns.
+    """Turns readings into diagnostics: a count that grew since the last reading warns.
 
     Each status holds the key of its ``state``; the sentence in ``message`` is made from it last.
 
@@ -124,7 +124,7 @@ class Diagnosis:
         self._before: Readings | None = None
 
     def of(self, readings: Readings, elapsed: float, stamp: int) -> DiagnosticArray:
-        """Diagnostics of this look.
+        """Return the diagnostics of this reading.
 
         Parameters
         ----------
@@ -272,7 +272,7 @@ class Diagnosis:
 
 
 def _grown(now: Mapping[Verdict, int], before: Mapping[Verdict, int]) -> list[Verdict]:
-    """Verdicts, other than acceptance, of which there are more than before."""
+    """Verdicts, other than acceptance, whose counts have grown."""
     return [
         verdict
         for verdict, count in now.items()
@@ -281,7 +281,7 @@ def _grown(now: Mapping[Verdict, int], before: Mapping[Verdict, int]) -> list[Ve
 
 
 def _steered(now: Readings) -> tuple[SteeringState, str, list[str]]:
-    """State of the steering, its sentence where nothing is wrong, and what is wrong with it."""
+    """State of the steering, its sentence without a fault, and its faults."""
     if now.manoeuvre:
         return SteeringState.MANOEUVRE, f"steered by the manoeuvre {now.manoeuvre}", []
     if now.steering_age is None:

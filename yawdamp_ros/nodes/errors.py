@@ -4,4 +4,4 @@ from yawdamp_ros.errors import YawdampError
 
 
 class NodeError(YawdampError):
-    """A node that cannot start as it was asked to."""
+    """Node that cannot start with its arguments."""

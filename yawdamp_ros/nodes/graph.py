@@ -26,15 +26,15 @@ HIGHEST_DOMAIN = 232
 """Largest ROS_DOMAIN_ID; above it port numbers end."""
 
 SPIN_PERIOD = 0.05
-"""Longest time in s that the executor waits on end."""
+"""Longest single wait of the executor [s]."""
 
 FAREWELL = 0.25
-"""Seconds. What is published arrives within some ms, but Fast DDS has it acknowledged only every 3 s."""
+"""Longest wait for acknowledgement [s]. Data arrives in ms, but Fast DDS acknowledges only every 3 s."""
 
 
 @contextmanager
 def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
-    """Initialise rclpy with what follows ``--ros-args``, and shut it down whatever happens.
+    """Initialise rclpy with the arguments after ``--ros-args``, and shut it down in any case.
 
     Signals stay with `StopRequest`: a context that shuts down under a callback makes it raise.
 
@@ -68,7 +68,7 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
 
 
 def _check_domain(given: str) -> None:
-    """Refuse a domain for which there are no ports: Fast DDS ends the process there."""
+    """Refuse a domain without ports: Fast DDS would end the process."""
     if given and not (given.isascii() and given.isdigit() and int(given) <= HIGHEST_DOMAIN):
         message = f"ROS_DOMAIN_ID: {given!r}: expected a number from 0 to {HIGHEST_DOMAIN}"
         raise NodeError(message)
@@ -115,7 +115,7 @@ def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: 
 
 
 def wait_for_subscribers(publishers: Iterable[Publisher]) -> None:
-    """Let subscribers have what was published, before the node goes."""
+    """Wait until subscribers have received all messages, before the node exits."""
     deadline = time.monotonic() + FAREWELL
     for publisher in publishers:
         publisher.wait_for_all_acked(Duration(seconds=max(deadline - time.monotonic(), 0.0)))
@@ -133,7 +133,7 @@ def _wake(executor: SingleThreadedExecutor, ended: threading.Event) -> None:
 
 @contextmanager
 def spinning(node: Node) -> Iterator[None]:
-    """Serve a node in a thread of its own, for as long as this thread has other work."""
+    """Serve a node in a thread of its own while this thread has other work."""
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     ended = threading.Event()

@@ -1,4 +1,4 @@
-"""One guard for every callback: what goes wrong in one is logged and counted, and the node goes on."""
+"""One guard for every callback: errors are logged and counted, and the node goes on."""
 
 import time
 from collections.abc import Callable

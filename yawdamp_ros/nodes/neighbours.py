@@ -1,4 +1,4 @@
-"""Who publishes what the simulator listens to, who listens to what it publishes, and whether that fits."""
+"""Checks of the publishers and subscribers at the other ends of the simulator's topics."""
 
 from collections.abc import Sequence
 from contextlib import suppress
@@ -53,10 +53,10 @@ class Neighbourhood(NamedTuple):
 
 
 class Neighbours:
-    """Watches the other ends of a node's topics; what does not fit is warned of once, when it comes.
+    """Watches the other ends of a node's topics and warns once of each new mismatch.
 
-    DDS drops what does not fit without a word to either side's user, and of two that steer at once the
-    newest command wins, whose ever it is.
+    DDS drops mismatched messages without a report to either user. If two nodes steer at once, the
+    newest command wins, whatever its source.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class Neighbours:
         self._known: tuple[Finding, ...] = ()
 
     def look(self) -> Neighbourhood:
-        """Look around, and warn of what is new."""
+        """Inspect the graph and warn of new findings."""
         publishers = 0
         findings = [Finding(Problem.SHARED_MEMORY_REMOVED, CUT_OFF)] if is_cut_off() else []
         name = self._node.get_fully_qualified_name()
@@ -134,7 +134,7 @@ def heard(
 
 
 def namesakes(name: str, nodes: Sequence[tuple[str, str]]) -> list[Finding]:
-    """Findings on nodes that bear the same name as this one.
+    """Findings on nodes with the same name as this one.
 
     Parameters
     ----------
@@ -203,7 +203,7 @@ def is_cut_off(descriptors: Path = DESCRIPTORS) -> bool:
 def _mismatch(
     expected: str, found: str, publisher: QoSProfile, subscription: QoSProfile
 ) -> tuple[Problem, str] | None:
-    """Reason why two ends of a topic do not meet; None if they do."""
+    """Reason that two ends of a topic do not match; None if they match."""
     if found != expected:
         return Problem.TYPE_MISMATCH, f"its type is {found}, expected {expected}"
     compatibility, reason = qos_check_compatible(publisher, subscription)

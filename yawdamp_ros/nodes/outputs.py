@@ -80,7 +80,7 @@ class Topics:
         return self._clock is not None
 
     def publish_clock(self) -> None:
-        """Let simulated time go out on /clock from now on, for good: nodes that follow it need it."""
+        """Publish simulated time on /clock from now on, without end: nodes that follow it need it."""
         if self._clock is None:
             self._clock = self._node.create_publisher(Clock, "/clock", QUEUE_DEPTH)
 
@@ -109,12 +109,12 @@ class Topics:
             self._events.publish(event)
 
     def repeat(self) -> None:
-        """Publish the newest sample once more, for those who came after it."""
+        """Publish the newest sample again for late subscribers."""
         if self._newest is not None:
             self.write(self._newest)
 
     def close(self) -> None:
-        """Let subscribers have what was published."""
+        """Wait until subscribers have received all messages."""
         if self._node.context.ok():
             wait_for_subscribers(self._publishers)
 

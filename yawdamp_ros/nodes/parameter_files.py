@@ -1,4 +1,4 @@
-"""Parameter files that follow ``--params-file``: whether they can be read, and whether they are of a node."""
+"""Checks of parameter files after ``--params-file``: readable, and for one of the nodes."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -11,10 +11,10 @@ from yawdamp_ros.files import read_text
 from yawdamp_ros.nodes.errors import NodeError
 
 LARGEST_PARAMETER_FILE = 1 << 17
-"""Characters."""
+"""Largest parameter file in characters."""
 
 MOST_BRACKETS = 1000
-"""Opened in a parameter file."""
+"""Limit on opening brackets in a parameter file."""
 
 
 def parameter_files(ros_arguments: Sequence[str]) -> list[Path]:
@@ -23,7 +23,7 @@ def parameter_files(ros_arguments: Sequence[str]) -> list[Path]:
 
 
 def check_parameter_file(path: Path) -> None:
-    """Refuse what rcl's parser would not come back from: its time goes by the square of nearly everything."""
+    """Refuse a file that would hang rcl's parser, whose time grows with the square of most sizes."""
     try:
         text = read_text(path, LARGEST_PARAMETER_FILE)
     except OSError as error:
@@ -38,7 +38,7 @@ def check_parameter_file(path: Path) -> None:
 
 
 def misfit(path: Path, node_name: str) -> str:
-    """Sentence that says that no key of a parameter file is of a node; empty if one is.
+    """Sentence for a parameter file without a key for a node; empty if there is one.
 
     Parameters
     ----------

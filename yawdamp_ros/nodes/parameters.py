@@ -15,7 +15,7 @@ from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.simulation.settings import FORMER_NAMES, FORMER_VALUES, PARAMETERS, SimParameters
 
 DEEPEST_DIRECTORY = 32
-"""Parts of a path that a peer may ask to be recorded to."""
+"""Largest number of parts of a recording path that a peer may set."""
 _TYPE_NAMES = {
     bool: "true or false",
     int: "an integer",
@@ -61,7 +61,7 @@ def declare_parameters(node: Node) -> SimParameters:
 
 
 def declare_derived(node: Node, values: Mapping[str, Any]) -> None:
-    """Declare the parameters that were not given and follow from others, so that they tell what is in force.
+    """Declare omitted parameters that follow from others, so that they show the values in force.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def declare_derived(node: Node, values: Mapping[str, Any]) -> None:
 
 
 def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimParameters:
-    """Settings with some parameters changed together, as a running node is asked for.
+    """Settings with some parameters changed together, as in a request to a running node.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def parameter_descriptor(declared: Field[Any]) -> ParameterDescriptor:
 
 
 def _given(node: Node) -> dict[str, Any]:
-    """Values that were given, by today's names; none of them is declared any more."""
+    """Return given values by present names, and undeclare them."""
     given = {}
     for name, parameter in node.get_parameters_by_prefix("").items():
         if name == "use_sim_time" and not isinstance(parameter.value, bool):

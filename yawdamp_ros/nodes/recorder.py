@@ -11,7 +11,7 @@ from yawdamp_ros.runs.recipe import recorded_messages
 
 
 class Recorder:
-    """At most one run at a time is written; what became of the last one is kept.
+    """Writes at most one run at a time and keeps the result of the last one.
 
     Parameters
     ----------
@@ -33,24 +33,24 @@ class Recorder:
 
     @property
     def failure(self) -> LogError | None:
-        """Why the run that is being written, or else the last one, is not whole."""
+        """Reason that the present run, or else the last one, is incomplete."""
         return self._writer.failure if self._writer is not None else self._last_failure
 
     @property
     def lost(self) -> int:
-        """Messages that were not written, of all runs."""
+        """Number of messages of all runs that were not written."""
         return self._lost_before + (self._writer.lost if self._writer is not None else 0)
 
     @property
     def state(self) -> RecorderState:
-        """Key of what it does."""
+        """Key of its state."""
         if self.failure is not None:
             return RecorderState.FAILED
         return RecorderState.RECORDING if self.recording else RecorderState.IDLE
 
     @property
     def detail(self) -> str:
-        """Directory that is recorded to, or why it is not recorded."""
+        """Directory of the recording, or the reason that there is none."""
         if self.failure is not None:
             return str(self.failure)
         return str(self.directory) if self.recording else "not recording"
@@ -68,7 +68,7 @@ class Recorder:
         self._writer, self.directory = writer, directory
 
     def stop(self) -> None:
-        """Finish the run that is being written, if there is one, and wait for that."""
+        """Finish the present run, if there is one, and wait until it is written."""
         if self._writer is not None:
             self._writer.close()
             self._lost_before += self._writer.lost

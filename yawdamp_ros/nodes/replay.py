@@ -17,9 +17,9 @@ from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.stepping.time_grid import nanoseconds
 
 POLL = 0.02
-"""Seconds between looks for a subscriber, a pause or its end."""
+"""Interval between checks for a subscriber, a pause or its end [s]."""
 SETTLING = 0.3
-"""Seconds from the sight of a subscriber to the first sample."""
+"""Delay from the discovery of a subscriber to the first sample [s]."""
 
 
 class ReplayNode(Node):
@@ -111,7 +111,7 @@ class ReplayNode(Node):
         return True
 
     def close(self) -> None:
-        """Let subscribers have what was published."""
+        """Wait until subscribers have received all messages."""
         publishers = [self._publisher, self._speed_publisher]
         wait_for_subscribers([publisher for publisher in publishers if publisher is not None])
 
@@ -132,7 +132,7 @@ class ReplayNode(Node):
 
 
 def _moments(log: SteeringLog) -> list[tuple[float, bool, float]]:
-    """Time in s, whether it steers, and the value of all that is to be published, in order.
+    """Time [s], whether it steers, and value of each message to publish, in order.
 
     A speed goes out before the steering of the same time, so that both act from one step on.
     """

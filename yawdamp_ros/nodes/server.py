@@ -26,11 +26,11 @@ from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
 WARNING_PERIOD = 5.0
 """Seconds between warnings of one kind."""
 DIAGNOSTICS_PERIOD = 1.0
-"""Seconds of real time."""
+"""Period of the diagnostics in real time [s]."""
 
 
 class Server:
-    """Advances a simulator as the steady clock asks for, from its making on, and answers for it.
+    """Advances a simulator by the steady clock, and serves its services and parameters.
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ class Server:
             )
 
     def _tell_silence(self) -> None:
-        """Say once that the controller went silent, whenever it does."""
+        """Log each steering timeout once."""
         simulator = self._simulator
         silent = simulator.commands.steering_input.timed_out(simulator.motion.step)
         if silent and not self._silence_said:
@@ -213,7 +213,7 @@ class Server:
         self._silence_said = silent
 
     def _tell_speed(self) -> None:
-        """Let the parameter tell the speed in force."""
+        """Set the parameter to the speed in force."""
         speed = self._simulator.motion.speed
         if (
             self._simulator.settings.longitudinal_source != "parameter"

@@ -105,7 +105,7 @@ class Simulator:
         return not (self.run.stopped or self.recorder.lost or self.recorder.failure)
 
     def publish_first(self) -> None:
-        """Publish the first sample, then say what there is to be said: rclpy's first word takes long.
+        """Publish the first sample, then log: rclpy's first log message takes long.
 
         It is at rest under the steering of the manoeuvre, or none: a command that has come by then acts from
         the first step on, so that runs begin alike however long the start takes.
@@ -124,7 +124,7 @@ class Simulator:
             self._node.get_logger().warning("use_sim_time: not followed, for this node makes the time")
 
     def advance(self, clock: int | None) -> None:
-        """Take a sample period, with what has arrived by now, and publish its sample.
+        """Take a sample period with the pending commands, and publish its sample.
 
         Parameters
         ----------
@@ -139,7 +139,7 @@ class Simulator:
         self._tell_stop()
 
     def change(self, settings: SimParameters) -> None:
-        """Go by other settings from now on."""
+        """Apply other settings from now on."""
         self.settings = settings
         if settings.clock:
             self.topics.publish_clock()
@@ -164,7 +164,7 @@ class Simulator:
         self.recorder.start(make_run_directory(Path(wanted), numbered=numbered))
 
     def close(self) -> None:
-        """Finish the recording and let subscribers have what was published."""
+        """Finish the recording, and wait until subscribers have received all messages."""
         self.recorder.close()
         if self.recorder.lost or self.recorder.failure is not None:
             reason = f"{self.recorder.failure}; " if self.recorder.failure is not None else ""
@@ -192,16 +192,16 @@ class Simulator:
 
 
 class _EventLog:
-    """A sink that says what happens to the vehicle."""
+    """Sink that logs the events of the vehicle."""
 
     def __init__(self, node: Node, grid: TimeGrid) -> None:
         self._node, self._grid = node, grid
 
     def write(self, sample: Sample) -> None:
-        """Say what happened before a sample."""
+        """Log the events before a sample."""
         for event in sample.events:
             time_ = self._grid.seconds(event.step)
             self._node.get_logger().warning(f"{event.name} of {event.where} at {time_:g} s")
 
     def close(self) -> None:
-        """Nothing is left to be said."""
+        """Do nothing: there is nothing to close."""

@@ -1,4 +1,4 @@
-"""States and reasons that the node reports: keys for programs, and the sentence of each for people."""
+"""States and reasons that the node reports: keys for programs, and a sentence each for users."""
 
 from collections.abc import Mapping
 from enum import StrEnum
@@ -98,7 +98,7 @@ RECORDER_SENTENCES: Mapping[RecorderState, str] = MappingProxyType(
         RecorderState.FAILED: "failed: {}",
     }
 )
-"""To be filled with the directory, or with the reason."""
+"""Sentences; braces hold the directory or the reason."""
 
 
 def answer(key: StrEnum, sentence: str) -> str:

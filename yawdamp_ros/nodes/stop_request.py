@@ -1,4 +1,4 @@
-"""SIGINT and SIGTERM as a request that the program asks for, instead of an exception anywhere."""
+"""SIGINT and SIGTERM as a request that the program polls, instead of an exception anywhere."""
 
 import os
 import select
@@ -20,7 +20,7 @@ class StopRequest:
         self.requested = False
 
     def wait(self, seconds: float) -> bool:
-        """Sleep for a time in s, or until the request comes; return whether it has."""
+        """Sleep for a time [s] or until the request arrives; return whether it has."""
         if not self.requested:
             select.select([self._wake], [], [], max(seconds, 0.0))
         return self.requested

@@ -150,7 +150,7 @@ class InputSubscription:
 
 
 def _drain(subscription: Any, receive: Callable[[Any], None]) -> None:  # noqa: ANN401 - rclpy's
-    """Hand over what has arrived."""
+    """Take pending messages."""
     # Same call as in rclpy's executor, which has no public one. Without it, commands wait for the executor.
     if not hasattr(subscription.handle, "take_message"):
         return

@@ -22,11 +22,11 @@ from yawdamp_ros.vehicle import (
 from yawdamp_ros.vehicle.shape import extent
 
 EVERY = 8
-"""Samples of a turn, and stations of its envelope, from one drawn point to the next."""
+"""Samples of a turn, and stations of its envelope, between drawn points."""
 SHOWN = 5
 """Places at which the combination is drawn in its turn."""
 FLOOR = 0.9
-"""Height at which a body is drawn to begin [m]."""
+"""Height of a drawn body's floor [m]."""
 
 
 def vehicle_tables(vehicle: Vehicle) -> list[dict[str, object]]:
@@ -148,7 +148,7 @@ def side_view(vehicle: Vehicle) -> dict[str, object]:
 
 
 def turn_view(vehicle: Vehicle) -> dict[str, object] | None:
-    """Low-speed turn of a vehicle as paths to draw; None where it has none.
+    """Low-speed turn of a vehicle as paths to draw; None for a vehicle without one.
 
     Parameters
     ----------
@@ -223,7 +223,7 @@ def _points(path: tuple[FloatArray, FloatArray]) -> list[list[float]]:
 
 
 def differing(assessments: Sequence[Assessment]) -> list[list[str]]:
-    """Rows of what differs between the first vehicle and the others: key, and a value of each.
+    """Rows of differences between the first vehicle and the others: key, and a value of each.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ MOST_ROLL = 0.35
 """Largest mean roll of the curves of static roll, in rad."""
 
 NOISE = 1e-9
-"""Magnitude below which a value is rounding of its inputs, and shown as 0."""
+"""Magnitude below which a value counts as rounding and is shown as 0."""
 
 _SHOWN_DECAY, _POINTS = 0.002, 400
 
@@ -138,7 +138,7 @@ def _subject(scheme: Scheme) -> str:
 
 
 def _heading(assessment: Assessment, heading: Heading) -> list[list[str]]:
-    """Names and texts of what the page says of itself."""
+    """Names and texts of the page's own data."""
     said = {"Project": heading.project, "Author": heading.author, "Date": heading.date}
     if assessment.scheme.name != DEFAULT_SCHEME:
         said |= {"Scheme": assessment.scheme.title, "Level": assessment.level or ""}
@@ -146,7 +146,7 @@ def _heading(assessment: Assessment, heading: Heading) -> list[list[str]]:
 
 
 def _verdict(assessment: Assessment) -> dict[str, object]:
-    """Verdict on the whole in a sentence, and whether it is one of failing."""
+    """Overall verdict as a sentence, and whether it is a failure."""
     judged = [finding for finding in assessment.findings if finding.passed is not None]
     failures = [finding.measure.name.replace("_", " ") for finding in judged if not finding.passed]
     if assessment.scheme.name == DEFAULT_SCHEME:
@@ -161,7 +161,7 @@ def _verdict(assessment: Assessment) -> dict[str, object]:
 
 
 def _compared(assessments: Sequence[Assessment], units: str) -> list[dict[str, object]]:
-    """Tables of the values of several vehicles, and of what differs in their data."""
+    """Tables of the values of several vehicles, and of the differences in their data."""
     rows = []
     for findings in zip(*(one.findings for one in assessments), strict=True):
         cells = [

@@ -1,4 +1,4 @@
-"""One look for every picture, and files that do not differ when nothing has changed."""
+"""One style for every picture, and reproducible files."""
 
 import warnings
 from collections.abc import Sequence
@@ -47,7 +47,7 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def style(axes: Axes, x_label: str, y_label: str, title: str = "") -> None:
-    """Label axes and give them the look that all share."""
+    """Label axes and give them the common style."""
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
     axes.set_title(title, fontsize="medium")

@@ -14,11 +14,11 @@ from yawdamp_ros.pictures.errors import PictureError
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 """Programs that can print a page."""
 LONGEST_PRINT = 120.0
-"""In s."""
+"""Longest time for printing a page [s]."""
 
 
 def page_text(template: str, title: str, data: Mapping[str, object]) -> str:
-    """Page of a template of this package, with the look and the charts that all share.
+    """Page of a template of this package, with the common style and charts.
 
     Parameters
     ----------

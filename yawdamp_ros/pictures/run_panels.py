@@ -16,7 +16,7 @@ from yawdamp_ros.stepping import Response
 LINEAR_UP_TO = {"lateral_acceleration": LINEAR_LATERAL_ACCELERATION, "articulation": LINEAR_ARTICULATION}
 """Magnitude of a quantity past which a truck leaves the linear range."""
 MOST_RUNS = 6
-"""More could not be told apart."""
+"""Limit on runs: more could not be told apart."""
 
 
 class Curve(NamedTuple):
@@ -64,7 +64,7 @@ class Panel(NamedTuple):
 
 
 def marks_of(responses: Sequence[Response]) -> tuple[tuple[float, str], ...]:
-    """Time [s] and name of every kind of event, of each unit the first."""
+    """Time [s] and name of the first event of each kind and unit."""
     found: dict[tuple[int, str, str], float] = {}
     for run, response in enumerate(responses):
         for event, time in zip(response.events, response.event_times, strict=True):
@@ -87,7 +87,7 @@ def bands(panel: Panel) -> list[tuple[float, float]]:
 
 
 def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
-    """A panel for every output of one number that a run has, and the paths where it holds them.
+    """Return a panel for every output of one number in a run, and for its paths.
 
     Parameters
     ----------

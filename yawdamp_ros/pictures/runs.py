@@ -23,7 +23,7 @@ NOTE: dict[str, Any] = {
     "parse_math": False,
 }
 DASHES = ((0.0, ()), (0.0, (5, 2)), (0.0, (1, 1.5)), (0.0, (6, 2, 1, 2)), (0.0, (10, 3)), (0.0, (1, 4)))
-"""One a run, in points drawn and left blank."""
+"""Dashes, one pattern for each run, in points drawn and left blank."""
 
 
 def runs_figure(runs: Sequence[tuple[str, Response]]) -> Figure:

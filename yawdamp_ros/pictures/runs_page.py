@@ -1,4 +1,4 @@
-"""The curves of runs as one HTML page, to zoom into and to read values off."""
+"""The curves of runs as one HTML page with zoom and values."""
 
 import html
 from collections.abc import Sequence

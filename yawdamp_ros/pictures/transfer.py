@@ -10,7 +10,7 @@ from yawdamp_ros.analysis import TransferFunction
 from yawdamp_ros.pictures.figure import COLOURS, GREY, STABLE, UNSTABLE, add_legend, new_figure, style
 
 FREQUENCIES = np.geomspace(0.01, 10.0, 600)
-"""In Hz: from far slower to far faster than a driver steers."""
+"""Frequencies from far slower to far faster than a driver steers [Hz]."""
 
 GAINS = np.geomspace(1e-3, 1e4, 2500)
 """Feedback gains of a root locus, over the inverse of the largest gain of the transfer function."""

@@ -15,13 +15,13 @@ TYRE_RADIUS = 0.5
 """Radius of every tyre [m], which vehicle files do not give; smaller under a low vehicle."""
 TYRE_WIDTH = 0.3
 FLOOR = 0.9
-"""Height of a body's floor in m; that of the wheels' centres under a low vehicle."""
+"""Height of a body's floor [m]; that of the wheels' centres for a low vehicle."""
 INCHES_PER_METRE = 0.55
 SMALL = 7.5
 
 
 class Placed(NamedTuple):
-    """A unit where it stands.
+    """Unit in its place.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ def vehicle_figure(vehicle: Vehicle) -> Figure:
     """Draw a vehicle to scale, from the side and from above.
 
     Axles stand with their wheels at their track, labelled with their load; hitches, and centres of gravity
-    with their height, hollow where that is assumed. What the file does not give is drawn as the nonlinear
+    with their height, hollow where that is assumed. Missing values are drawn as the nonlinear
     model assumes it.
 
     Parameters
@@ -120,7 +120,7 @@ def _draw_side(axes: Axes, units: list[Placed], radius: float) -> None:
 
 
 def _draw_body(axes: Axes, each: Placed, behind: Placed | None, colour: str, radius: float) -> None:
-    """A body is high as far as the next one does not cover it, and low beyond, as a fifth wheel needs it."""
+    """Profile of a body: high up to the next body, and low below it, as a fifth wheel needs."""
     floor, height = FLOOR if radius == TYRE_RADIUS else radius, each.unit.height or 0.0
     covered = each.rear
     if behind is not None and each.unit.hitch_roll_stiffness:
