@@ -1,3 +1,3 @@
-"""The version, which the metadata of an installed package would take a node long to look up."""
+"""The version; a lookup in the metadata of the package would slow the start of a node."""
 
 VERSION = "0.1.0"

@@ -1,4 +1,4 @@
-"""`assess`: a combination against the measures that the field judges it by."""
+"""`assess`: a combination against the measures of the field."""
 
 import argparse
 import json
@@ -56,7 +56,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _write_files(options: argparse.Namespace, assessments: Sequence[Assessment]) -> None:
-    """Write page, print and spreadsheet, as far as they are asked for."""
+    """Write the requested page, print and spreadsheet."""
     if options.html or options.pdf:
         # Imported here: the libraries of the page take longer to load than most assessments take.
         from yawdamp_ros.pictures.assessment_page import Heading, assessment_page  # noqa: PLC0415
@@ -84,7 +84,7 @@ def _assessed(options: argparse.Namespace, scheme: Scheme, name: str | None) -> 
 
 
 def _many(options: argparse.Namespace, scheme: Scheme) -> int:
-    """Say which share of many vehicles meets the level."""
+    """Print the share of many vehicles that meets the level."""
     for name in ("html", "pdf", "xlsx"):
         if getattr(options, name) is not None:
             message = f"--{name}: not with --random, which judges many vehicles"
@@ -112,7 +112,7 @@ def _check(options: argparse.Namespace) -> None:
 
 
 def _differences(options: argparse.Namespace) -> int:
-    """Say by how much each measure differs between the models, at its own manoeuvre."""
+    """Print the difference of each measure between the models, at its own manoeuvre."""
     for name in ("html", "pdf", "xlsx", "srt", "model", "level"):
         if getattr(options, name) is not None:
             message = f"--{name}: not with --differences, which compares the models"
@@ -157,7 +157,7 @@ def _differences(options: argparse.Namespace) -> int:
 
 
 def _difference(linear: Finding, nonlinear: Finding) -> float | None:
-    """Share by which the nonlinear value differs; None where there is none, or it is of nothing."""
+    """Relative difference of the nonlinear value; None without one, or from 0."""
     if linear.value is None or nonlinear.value is None or abs(linear.value) < ROUNDING_NOISE:
         return None
     return nonlinear.value / linear.value - 1.0

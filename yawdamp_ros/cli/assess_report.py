@@ -126,7 +126,7 @@ def print_side_by_side(assessments: Sequence[Assessment], units: str) -> None:
 
 
 def print_definitions(assessed: Assessment) -> None:
-    """Say what each measure is, and where its limits were read."""
+    """Print the definition of each measure and the sources of its limits."""
     secondary = assessed.scheme.name == DEFAULT_SCHEME
     print(f"\nDefinitions{'; levels are from secondary sources' if secondary else ''}")
     for finding in assessed.findings:

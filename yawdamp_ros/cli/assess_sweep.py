@@ -1,4 +1,4 @@
-"""`assess --random`: which share of many vehicles meets a level, and what decides."""
+"""`assess --random`: share of many vehicles that meets a level, and the decisive measures."""
 
 import argparse
 import json
@@ -19,7 +19,7 @@ from yawdamp_ros.vehicle import vehicle_text
 
 
 def run(options: argparse.Namespace, scheme: Scheme) -> int:
-    """Draw, judge and report; 0 where all meet the level."""
+    """Draw, assess and report; 0 if all meet the level."""
     if not options.range or options.random < 1:
         message = "--random: expected 1 or more, and at least one --range KEY=A:B"
         raise UsageError(message)

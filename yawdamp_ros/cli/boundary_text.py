@@ -15,7 +15,7 @@ def boundary_text(boundary: Boundary, unit: str) -> str:
 
 
 def boundary_record(boundary: Boundary) -> dict[str, object]:
-    """Boundary as JSON holds it."""
+    """Boundary as a JSON object."""
     return {
         "value": boundary.value,
         "unstable": "above" if boundary.unstable_above else "below",

@@ -16,7 +16,7 @@ from rich.text import Text
 
 
 class _Done(ProgressColumn):
-    """Progress: how much is done and, where it is known, of how much."""
+    """Progress: amount done and, if known, the total."""
 
     def __init__(self, unit: str) -> None:
         super().__init__()
@@ -29,7 +29,7 @@ class _Done(ProgressColumn):
 
 
 def progress_bar(unit: str = "s") -> Progress:
-    """A progress bar on standard error; silent where that is no terminal."""
+    """Progress bar on standard error; silent without a terminal."""
     console = Console(stderr=True)
     # Needed besides `disable`: rich before 14 ends a disabled bar with an empty line.
     console.quiet = not console.is_terminal
@@ -46,7 +46,7 @@ def progress_bar(unit: str = "s") -> Progress:
 
 
 def progress_of(description: str) -> Callable[[Sequence[float]], Iterator[float]]:
-    """Return what iterates over values and shows how far it is, as `progress_bar` does."""
+    """Return an iterator over values that shows its progress, as `progress_bar` does."""
 
     def progress(values: Sequence[float]) -> Iterator[float]:
         with progress_bar("values") as bar:

@@ -76,7 +76,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _make_writable() -> None:
-    """Have streams that take every text, nowhere if closed, and escaped where it cannot be encoded."""
+    """Make the streams accept any text: dropped if closed, escaped if it cannot be encoded."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:
@@ -86,7 +86,7 @@ def _make_writable() -> None:
 
 
 def _give_up_output() -> None:
-    """Let what is still buffered go nowhere: Python would try once more at its exit, and say so."""
+    """Discard buffered output: Python would try again at its exit and report a failure."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

@@ -13,7 +13,7 @@ SHORT = MappingProxyType({"yaw_rate": "r", "lateral_acceleration": "a_y", "yaw":
 
 
 def told(drive: Drive) -> list[str]:
-    """Print the place that each channel was found at."""
+    """Print the place of each channel."""
     return drive.described()
 
 

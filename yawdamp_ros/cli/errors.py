@@ -4,4 +4,4 @@ from yawdamp_ros.errors import YawdampError
 
 
 class UsageError(YawdampError):
-    """Options that do not go together, or a value that cannot be one."""
+    """Options that exclude each other, or an invalid value."""

@@ -26,22 +26,22 @@ WORTHWHILE = 8
 """Chunks for each process: starting one takes as long as working on a few."""
 
 AHEAD = 4
-"""Chunks under way for each worker: none waits for the next, and none of the answers piles up."""
+"""Chunks under way for each worker: enough to keep it busy, few enough that answers do not pile up."""
 
 MOST_JOINING = 16
 """Workers that may join a cluster after the start and still find work."""
 
 CONNECT_TIMEOUT = 10.0
-"""In s, for the scheduler to answer."""
+"""Timeout for the scheduler's answer [s]."""
 
 
 @contextmanager
 def mapping(
     chunks: int, jobs: int | None, scheduler: str | None, *, threads: bool = False
 ) -> Iterator[Mapped]:
-    """A `map` in order that is carried out by an executor.
+    """Ordered `map` by an executor.
 
-    It takes a few chunks ahead of those whose answers were asked for, so that memory does not grow with
+    It works only a few chunks ahead of the requested answers, so that memory does not grow with
     their number.
 
     Parameters
@@ -94,7 +94,7 @@ def _pool(workers: int, *, threads: bool) -> Iterator[Mapped]:
 def _in_order(
     executor: Executor, ahead: int, function: Callable[[Any], Any], items: Iterable[Any]
 ) -> Iterator[Any]:
-    """Results of a function of each item, with so many items under way."""
+    """Results of a function of each item, with a number of items under way."""
     pending: deque[Future[Any]] = deque()
     for item in items:
         pending.append(executor.submit(function, item))

@@ -1,4 +1,4 @@
-"""`identify`: what a drive says of a vehicle."""
+"""`identify`: parameters of a vehicle from a drive."""
 
 import json
 import sys
@@ -26,7 +26,7 @@ ESTIMATE_COLUMNS = ("parameter", "value", "95 % interval", "unit")
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Fit parameters and print them; 1 if one of those asked for cannot be seen in the drive."""
+    """Fit parameters and print them; 1 if the drive does not determine a requested one."""
     options = _parser().parse_args(arguments)
     drive = chosen_drive(options.log, options, options.duration)
     vehicle = chosen_vehicle(options)

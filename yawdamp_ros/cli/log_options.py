@@ -17,7 +17,7 @@ RATIOS = (1e-3, 1e3)
 
 
 def add_log_options(parser: argparse.ArgumentParser) -> None:
-    """Add what says how a recorded drive is to be read."""
+    """Add the options for reading a recorded drive."""
     group = parser.add_argument_group("drive (CSV, MCAP file, rosbag2 directory or MATLAB .mat)")
     group.add_argument(
         "--topic", help="of the steering in a recording; default: the one that fits, or is named so"
@@ -47,7 +47,7 @@ def add_log_options(parser: argparse.ArgumentParser) -> None:
 
 
 def log_options(options: argparse.Namespace) -> list[str]:
-    """Those of these options that were given."""
+    """Return the given ones of these options."""
     names = ("topic", "joint", "column", "degrees", "channel", "steering_ratio", "start_offset")
     return [name for name in names if getattr(options, name)]
 

@@ -1,11 +1,11 @@
 """Numbers in tables."""
 
 ROUNDING_NOISE = 1e-9
-"""Magnitude in SI units below which a result is rounding of its inputs, and shown as 0."""
+"""Magnitude in SI units below which a result counts as rounding and is shown as 0."""
 
 
 def number(value: float, spec: str = ".4g") -> str:
-    """Format a result for people; what is below rounding noise is 0.
+    """Format a result for users; a value below rounding noise is 0.
 
     Parameters
     ----------

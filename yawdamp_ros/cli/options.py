@@ -1,4 +1,4 @@
-"""Options that several commands share, so that they read alike in each."""
+"""Options that several commands share."""
 
 import argparse
 import sys
@@ -29,7 +29,7 @@ MANOEUVRE_SETTINGS = {
 
 
 class _Once(argparse.Action):
-    """Store a value; refuse an option that is given again, for one of its values would be lost."""
+    """Store a value; refuse a repeated option, because one of its values would be lost."""
 
     def __call__(
         self,
@@ -74,14 +74,14 @@ class Parser(argparse.ArgumentParser):
             self.register("action", stored, _Once)
 
     def error(self, message: str) -> NoReturn:
-        """Raise the complaint as a `UsageError`."""
+        """Raise the error as a `UsageError`."""
         raise UsageError(message)
 
 
 def add_vehicle_options(
     parser: argparse.ArgumentParser, models: Iterable[str] = LINEAR_MODELS, *, several: bool = False
 ) -> None:
-    """Add --vehicle, once or several times, --speed, --model and --set; None is what was not given."""
+    """Add --vehicle, once or several times, --speed, --model and --set; an omitted one is None."""
     group = parser.add_argument_group("vehicle")
     explanation = f"builtin name or file (default: {DEFAULT_VEHICLE})"
     if several:
@@ -101,7 +101,7 @@ def add_vehicle_options(
 
 
 def overrides(options: argparse.Namespace) -> list[str]:
-    """Changes to the vehicle that --set and --speed ask for, of every key one.
+    """Changes to the vehicle by --set and --speed, one for each key.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def chosen_name(options: argparse.Namespace) -> str:
 
 
 def chosen_vehicle(options: argparse.Namespace) -> Vehicle:
-    """Vehicle that the options name, with its overrides, at the speed they give; doubts are warned of."""
+    """Vehicle of the options, with overrides and speed; warn of implausible values."""
     name = chosen_name(options)
     vehicle, doubts = examined_vehicle(vehicle_text(name), name, overrides(options))
     for doubt in doubts:
@@ -150,7 +150,7 @@ def add_manoeuvre_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_run_settings(parser: argparse.ArgumentParser) -> None:
-    """Add what `sim` and `simulate` are asked for alike, as the settings record has it."""
+    """Add the options common to `sim` and `simulate`, from the settings record."""
     group = parser.add_argument_group("steering and limits")
     for name in RUN_SETTINGS:
         declared = SimParameters.__dataclass_fields__[name]
@@ -164,7 +164,7 @@ def add_run_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def run_settings(options: argparse.Namespace) -> dict[str, Any]:
-    """Those that were given, by field name.
+    """Return the given ones, by field name.
 
     Raises
     ------

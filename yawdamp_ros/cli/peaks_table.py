@@ -32,7 +32,7 @@ def print_peaks(model: LinearModel, peaks: Peaks, note: str) -> None:
 
 
 def print_events(events: Iterable[Event], grid: TimeGrid, prefix: str = "") -> None:
-    """Print what happened to the vehicle, a line each."""
+    """Print the events of the vehicle, one on each line."""
     for event in events:
         name = event.name.replace("_", " ")
         print(f"{prefix}{name} of {event.where} at {grid.seconds(event.step):.3f} s")

@@ -78,7 +78,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _draw_swept(options: argparse.Namespace) -> None:
-    """Draw what the bodies of one run sweep."""
+    """Draw the area that the bodies of one run sweep."""
     if len(options.runs) != 1 or options.models or Path(options.output).suffix.lower() == ".html":
         message = "--swept: expected one RUN, and a picture as PNG or SVG"
         raise UsageError(message)
@@ -155,6 +155,6 @@ def _read(path: Path) -> Response:
 
 
 def _names(runs: Sequence[str]) -> list[str]:
-    """Short names of runs; where two would be alike, as they were given."""
+    """Short names of runs; the given ones if two would be equal."""
     stems = Counter(Path(run).stem for run in runs)
     return [Path(run).stem if stems[Path(run).stem] == 1 else run for run in runs]

@@ -18,7 +18,7 @@ VEHICLE_OPTIONS = ("vehicle", "speed", "model", "set")
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run again what a run recorded, compare, and say what came of it."""
+    """Repeat a recorded run, compare, and report the result."""
     options = _parser().parse_args(arguments)
     path = Path(options.run)
     answer = _answer(path, options)

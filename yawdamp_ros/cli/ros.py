@@ -11,14 +11,14 @@ ROS_ARGUMENTS = "--ros-args"
 def parse_before_ros(
     parser: argparse.ArgumentParser, arguments: Sequence[str]
 ) -> tuple[argparse.Namespace, list[str]]:
-    """Parse a node's own options; what follows ``--ros-args`` is for rclpy."""
+    """Parse a node's own options; arguments after ``--ros-args`` are for rclpy."""
     given = list(arguments)
     cut = given.index(ROS_ARGUMENTS) if ROS_ARGUMENTS in given else len(given)
     return parser.parse_args(given[:cut]), given[cut:]
 
 
 def require_ros() -> None:
-    """Say in one line what to install where rclpy cannot be imported.
+    """Name in one line the package to install if rclpy cannot be imported.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""`show`: what a vehicle is, what of it was given, and what is hard to believe."""
+"""`show`: a vehicle with its given, assumed and implausible values."""
 
 from collections.abc import Sequence
 

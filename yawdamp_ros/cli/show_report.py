@@ -26,7 +26,7 @@ from yawdamp_ros.vehicle.complete import SOURCES
 
 COLUMNS = 80
 LARGE = 1000.0
-"""From there on numbers are shown whole."""
+"""Magnitude from which numbers are shown without decimals."""
 
 
 def print_json(vehicle: Vehicle, doubts: Sequence[Suspicion]) -> None:

@@ -25,7 +25,7 @@ def main(arguments: Sequence[str]) -> int:
 
 @contextmanager
 def _uncollected() -> Iterator[None]:
-    """Let nothing look for garbage before the node runs: what is imported stays, and that takes long."""
+    """Suspend garbage collection before the node runs: it takes long, and imports stay anyway."""
     gc.disable()
     try:
         yield
@@ -82,7 +82,7 @@ def _run(
 
 @contextmanager
 def _progress(simulator: "Simulator") -> Iterator[Callable[[], None]]:
-    """Something that shows how far a run is whose end is known."""
+    """Yield a function that shows the progress of a run with a known end."""
     if not simulator.settings.duration:
         yield lambda: None
         return
@@ -137,7 +137,7 @@ def _parser() -> "argparse.ArgumentParser":
 
 
 def _overrides(options: "argparse.Namespace") -> dict[str, Any]:
-    """Node parameters that the options give; those not given are left to --ros-args."""
+    """Node parameters of the options; the others are left to --ros-args."""
     from yawdamp_ros.cli.options import manoeuvre_settings, run_settings  # noqa: PLC0415
 
     given: dict[str, Any] = {

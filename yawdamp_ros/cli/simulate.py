@@ -55,7 +55,7 @@ from yawdamp_ros.vehicle import Vehicle, vehicle_source
 DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
 DAY = 86400.0
-"""Simulated time beyond which a log's length is not taken for what is wanted [s]."""
+"""Longest log that is simulated in full without an explicit duration [s]."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -103,7 +103,7 @@ def main(arguments: Sequence[str]) -> int:
 def _played(
     log: SteeringLog | None, options: argparse.Namespace, motion: Motion
 ) -> tuple[Signal | None, dict[str, Signal]]:
-    """Steering of a log and the other inputs that are followed, by name; what is not is said."""
+    """Steering of a log and the other inputs to follow, by name; report ignored inputs."""
     if log is None:
         return None, {}
     source = options.longitudinal_source or "speed"
@@ -136,7 +136,7 @@ def _carry_out(run: Run, samples: int, stop: StopRequest) -> None:
 
 
 class _ProgressSink:
-    """Shows how far a run is whose end is known."""
+    """Shows the progress of a run with a known end."""
 
     def __init__(self, bar: Progress, grid: TimeGrid, duration: float) -> None:
         self._bar, self._grid = bar, grid
@@ -147,11 +147,11 @@ class _ProgressSink:
         self._bar.update(self._task, completed=self._grid.seconds(int(np.max(sample.step))))
 
     def close(self) -> None:
-        """The bar closes itself."""
+        """Do nothing: the bar closes itself."""
 
 
 def _settings(options: argparse.Namespace, vehicle: Vehicle) -> tuple[SteeringLog | None, SimParameters]:
-    """The log, if there is one, and what the run is asked for."""
+    """The log, if there is one, and the settings of the run."""
     log = _log(options)
     duration = options.duration
     if duration is None:

@@ -1,4 +1,4 @@
-"""`stability`: the modes of a vehicle, and what they depend on."""
+"""`stability`: the modes of a vehicle, and their dependence on parameters."""
 
 import argparse
 from collections.abc import Sequence

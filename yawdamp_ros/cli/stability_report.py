@@ -28,7 +28,7 @@ from yawdamp_ros.vehicle import STANDARD_GRAVITY
 
 @dataclass(frozen=True)
 class Stability:
-    """Everything that is said of one vehicle at one speed."""
+    """Answer for one vehicle at one speed."""
 
     model: LinearModel
     modes: tuple[Mode, ...]
@@ -43,7 +43,7 @@ class Stability:
 
 
 def assess(model: LinearModel) -> Stability:
-    """Gather what is said of a model."""
+    """Compute the answer for a model."""
     try:
         gains = static_gains(model)
     except AnalysisError:

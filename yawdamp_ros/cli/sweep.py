@@ -40,7 +40,7 @@ PARQUET = ".parquet"
 
 
 class Plan(NamedTuple):
-    """Sweep that a command line asks for."""
+    """Return the sweep of a command line."""
 
     study: Study
     points: Points

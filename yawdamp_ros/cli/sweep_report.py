@@ -56,7 +56,7 @@ class Sweep:
 
 
 def print_json(sweep: Sweep, boundaries: Sequence[Boundary], segments: FloatArray) -> None:
-    """Print a sweep as one JSON object; null is what has no value."""
+    """Print a sweep as one JSON object; null marks a missing value."""
     rows = np.hstack([sweep.points[:], sweep.answers]).tolist()
     report = {
         "vehicle": sweep.study.source,
@@ -71,7 +71,7 @@ def print_json(sweep: Sweep, boundaries: Sequence[Boundary], segments: FloatArra
 
 
 def print_text(sweep: Sweep, boundaries: Sequence[Boundary], segments: FloatArray) -> None:
-    """Print a sweep as a table, or what it comes to."""
+    """Print a sweep as a table, or as a summary."""
     count = len(sweep.points)
     print(f"{sweep.study.source}, {sweep.study.model} model, {count} points")
     if len(sweep.axes) == 1:

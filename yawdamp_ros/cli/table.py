@@ -10,11 +10,11 @@ from rich.table import Table
 from rich.text import Text
 
 PIPE_WIDTH = 200
-"""Columns of a table that goes to a pipe or a file, which has no edge."""
+"""Width of a table in a pipe or a file, which has none of its own."""
 LEAST_PROSE = 12
 """Characters of prose that are always shown."""
 FRAME = 3
-"""Characters that a frame takes from each column; narrow tables have none, but two between columns."""
+"""Characters that a frame takes from each column; narrow tables have two spaces instead."""
 
 _BREAKS = re.compile(r"(?<=_)(?=[a-z])|(?<=\+ )(?=[a-z])|(?<=   )(?=\S)|(?<=; )")
 """Places where a line may break: in names, between modes, eigenvalues and levels."""

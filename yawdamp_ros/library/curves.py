@@ -1,4 +1,4 @@
-"""A response with what a notebook asks of it: one unit, a table, a picture."""
+"""A response for notebooks: one unit, a table, a picture."""
 
 from dataclasses import dataclass, fields
 from pathlib import Path

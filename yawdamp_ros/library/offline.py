@@ -1,4 +1,4 @@
-"""A run in memory, by whatever steers it."""
+"""A run in memory from any kind of steering."""
 
 from pathlib import Path
 
@@ -96,7 +96,7 @@ class _Kept:
         self.samples.append(sample)
 
     def close(self) -> None:
-        """Nothing is open."""
+        """Do nothing: there is nothing to close."""
 
 
 def _follow(  # noqa: PLR0913, PLR0917 - what `simulate` was told
