@@ -1,4 +1,4 @@
-"""Files of any origin, opened alike."""
+"""Files of any origin, opened in one way."""
 
 import errno
 import os
@@ -7,9 +7,9 @@ from pathlib import Path
 
 
 def regular(path: Path) -> Path:
-    """The path itself, of what a read comes to an end of.
+    """Return the path of a file that can be read to its end.
 
-    A pipe would be waited for, and a device may never end.
+    Reading a pipe would wait, and a device may never end.
 
     Raises
     ------

@@ -22,7 +22,7 @@ def parse_yaml(text: str, most_values: int) -> Any:  # noqa: ANN401 - any YAML u
     ----------
     text : str
     most_values : int
-        Keys and values that it may hold; what an alias stands for counts wherever it stands.
+        Largest number of keys and values; the contents of an alias count at each use.
 
     Returns
     -------
@@ -39,7 +39,7 @@ def parse_yaml(text: str, most_values: int) -> Any:  # noqa: ANN401 - any YAML u
     yaml.max_depth = DEEPEST
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of what is odd but valid
+            warnings.simplefilter("ignore")  # about odd but valid YAML
             root = yaml.compose(text)
             if root is None:
                 return None

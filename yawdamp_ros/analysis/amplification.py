@@ -198,7 +198,7 @@ def _ratios(ends: FrequencyResponse, frequencies: FloatArray) -> FloatArray:
     """Last over first at frequencies in Hz, shape (..., k)."""
     shape = (*frequencies.shape[:-1], len(ends.inputs))
     s = np.asarray(2j * np.pi * np.broadcast_to(frequencies, shape), dtype=np.complex128)
-    with np.errstate(divide="ignore", invalid="ignore"):  # what has no steady sine has a reason
+    with np.errstate(divide="ignore", invalid="ignore"):  # a vehicle without a steady sine has a reason
         first, last = ends.gains(s)
         return np.asarray(np.abs(last / first), dtype=np.float64)
 

@@ -93,7 +93,7 @@ class VehicleMeasure:
     speed : float or None
         Speed that its standard asks for [m/s]; None for the vehicle's own.
     fixed : bool
-        Whether the manoeuvre has its own speed, whatever is asked for.
+        Whether the manoeuvre has its own speed, which no request changes.
     caveat : str
         Reason that the value is a lower bound, which can fail an upper limit but not meet it; else empty.
 

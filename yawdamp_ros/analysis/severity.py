@@ -107,7 +107,7 @@ def severity(  # noqa: PLR0913 - each is one condition of the turn
     turns : int
         Number of turns, evenly apart.
     progress : callable, optional
-        Iterates over the shares of the hardest turn and shows how far it is.
+        Function that iterates over the shares of the hardest turn and shows its progress.
 
     Returns
     -------

@@ -151,7 +151,7 @@ def _is_bound(name: str) -> bool:
 def _failed(
     requirements: tuple[Requirement, ...], values: Mapping[str, FloatArray], level: int
 ) -> "np.ndarray[tuple[int, ...], np.dtype[np.bool_]]":
-    """Tell which vehicles fail a measure; what is not known is not failed."""
+    """Return the vehicles that fail a measure; an unknown value does not fail."""
     count = len(next(iter(values.values())))
     wrong = np.zeros(count, dtype=bool)
     for each in requirements:

@@ -1,4 +1,4 @@
-"""The steady turn: how much steering a curve needs, and what the vehicle does in it."""
+"""The steady turn: the steering that a curve needs, and the motion of the vehicle in it."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -78,7 +78,7 @@ class SteadyTurns(NamedTuple):
 
 
 def steady_turns(model: LinearModel) -> SteadyTurns:
-    """Solve for the steady turn of each of a stack of vehicles in which every unit yaws alike."""
+    """Solve for the steady turn of each of a stack of vehicles in which all units have one yaw rate."""
     rates = len(model.vehicle.units) + 1
     unknown = [0, *range(rates, model.state_matrix.shape[-1])]
     acting = model.input_matrix[:, :rates, np.newaxis]
@@ -92,7 +92,7 @@ def steady_turns(model: LinearModel) -> SteadyTurns:
 
 
 def steady_turn(model: LinearModel) -> SteadyTurn:
-    """Solve for the steady turn in which every unit yaws alike.
+    """Solve for the steady turn in which all units have one yaw rate.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A measure of many vehicles that differ in a few numbers: what a sweep computes, chunk by chunk."""
+"""A measure of many vehicles that differ in a few numbers: the chunks of a sweep."""
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress

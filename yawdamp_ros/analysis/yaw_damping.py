@@ -81,7 +81,7 @@ class ModesOfDecay(NamedTuple):
 
 
 def modes_of_decay(model: LinearModel) -> ModesOfDecay:
-    """Modes of the free decay after a pulse of steering, which need no samples and no peaks to be told.
+    """Modes of the free decay after a pulse of steering, found without samples or peaks.
 
     Parameters
     ----------
@@ -224,8 +224,8 @@ def pulse_decay(model: LinearModel) -> FloatArray:
     Returns
     -------
     ndarray, shape (m,)
-        In rad/s for a pulse of 1 rad over `PULSE_WIDTH`, which the damping does not depend on, evenly sampled
-        until the slowest mode has died out or, of an unstable vehicle, the fastest has grown as far.
+        Yaw rate [rad/s] after a pulse of 1 rad over `PULSE_WIDTH`; the damping does not depend on it.
+        Samples are even until the slowest mode has decayed or, if unstable, the fastest has grown as far.
 
     Examples
     --------

@@ -24,7 +24,7 @@ def run(options: argparse.Namespace, scheme: Scheme) -> int:
         message = "--random: expected 1 or more, and at least one --range KEY=A:B"
         raise UsageError(message)
     spans = [parse_span(text) for text in options.range]
-    chosen_vehicle(options)  # warns of what is doubtful about it, whatever varies
+    chosen_vehicle(options)  # warns of implausible values, whichever key varies
     name = chosen_name(options)
     text, changes = vehicle_text(name), tuple(overrides(options))
     keys = tuple(each for each, _ in spans)

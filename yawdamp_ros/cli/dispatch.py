@@ -40,7 +40,7 @@ def run(arguments: Sequence[str]) -> int:
     Parameters
     ----------
     arguments : sequence of str
-        The command's name and what follows it.
+        Name of the command and its arguments.
 
     Returns
     -------

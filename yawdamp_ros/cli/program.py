@@ -9,7 +9,7 @@ VARIABLE = "YAWDAMP_TYPED"
 
 
 def program() -> str:
-    """Return what was typed before the name of a command.
+    """Return the words typed before the name of a command.
 
     Returns
     -------

@@ -53,7 +53,7 @@ def print_json(vehicle: Vehicle, doubts: Sequence[Suspicion]) -> None:
 
 
 def print_text(vehicle: Vehicle, doubts: Sequence[Suspicion]) -> None:
-    """Print a vehicle as tables; what is assumed is marked with an asterisk."""
+    """Print a vehicle as tables; assumed values are marked with an asterisk."""
     full, supposed = complete(vehicle), assumed(vehicle)
     marks = {each.key for each in supposed}
     axle_count = sum(len(unit.axles) for unit in full.units)

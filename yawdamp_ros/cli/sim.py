@@ -74,7 +74,7 @@ def _run(
         if problem := misfit(path, node.get_fully_qualified_name()):
             node.get_logger().warning(problem)
     with _progress(simulator) as progress:
-        gc.freeze()  # what there is by now is never garbage
+        gc.freeze()  # existing objects are never garbage
         gc.enable()
         server = Server(node, simulator)
         return spin(node, stop, lambda: simulator.finished, progress), server.steps_dropped

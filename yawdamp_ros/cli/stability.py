@@ -127,7 +127,7 @@ def _vary(options: argparse.Namespace) -> int:
     if options.plot:
         require("matplotlib")
     variation = parse_variation(options.vary)
-    chosen_vehicle(options)  # warns of what is doubtful about it, whatever varies
+    chosen_vehicle(options)  # warns of implausible values, whichever key varies
     models = variation.models(chosen_name(options), overrides(options), options.model or DEFAULT_MODEL)
     locus = eigenvalue_locus(models, variation.values, progress_of("varying"))
     first = models(variation.values[0])

@@ -127,7 +127,7 @@ def _plan(options: argparse.Namespace) -> Plan:
     if len({key for each in keys for key in each}) < sum(map(len, keys)):
         message = f"{' and '.join(','.join(each) for each in keys)}: expected every key once"
         raise UsageError(message)
-    chosen_vehicle(options)  # warns of what is doubtful about it, whatever varies
+    chosen_vehicle(options)  # warns of implausible values, whichever key varies
     study = Study(
         text=vehicle_text(vehicle),
         source=vehicle,

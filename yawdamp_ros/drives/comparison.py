@@ -41,7 +41,7 @@ class ChannelComparison:
     rms_error, rms_measured, rms_simulated : float
         Root mean square of measured minus simulated, and of each signal.
     r_squared : float
-        Share of the measured variance that the simulation explains as it is; not a number of a constant.
+        Share of the measured variance that the simulation explains; NaN for a constant signal.
     noise : float
         Noise floor: standard deviation of changes from sample to sample that are too fast for a vehicle.
     attainable : float
@@ -203,7 +203,7 @@ def compare(
 
 
 def excitation(drive: Drive, speed: float) -> Excitation:
-    """Return how much a drive excites a vehicle.
+    """Return the excitation of a vehicle by a drive.
 
     Parameters
     ----------

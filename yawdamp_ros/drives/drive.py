@@ -169,7 +169,7 @@ def speeds_by_acceleration(
     Returns
     -------
     ndarray, shape (k,)
-        Within what a model follows.
+        Speeds [m/s], clamped to the range of a model.
 
     Examples
     --------

@@ -162,7 +162,7 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
     predictor: Predictor = predict,
     fitted_share: float = FITTED_SHARE,
 ) -> Identification:
-    """Fit parameters of a vehicle to what was measured on a drive.
+    """Fit parameters of a vehicle to the measurements of a drive.
 
     Each sensor's offset is estimated with them, with what is known of it (`OFFSET_SPREAD`). The residuals
     are a vector autoregression, fitted in turn with the parameters, so that the intervals hold for

@@ -1,7 +1,7 @@
 """Prediction of a drive with varying speed by the linear model; an hour takes a moment.
 
 The speed is followed quasi-statically, as a run follows it: at each instant the model is that of its speed.
-Steps of one size are exact for what is held over them. A drive is cut into blocks that are stepped side by
+Steps of one size are exact for held inputs. A drive is cut into blocks that are stepped side by
 side, all of them with one product of stacked matrices; what each starts from follows from the block before.
 """
 
@@ -66,7 +66,7 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: f
         Step size [s].
     delay : float, optional
         Time in s by which the steering acts later than its stamps say, or earlier. If one is given the
-        angle at an instant is interpolated, so that what is predicted is a smooth function of the delay.
+        angle at an instant is interpolated, so that the prediction is a smooth function of the delay.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def inputs_of(drive: Drive, speed: float, step_size: float = STEP_SIZE, delay: f
     steering = drive["steering"]
     count = math.floor(drive.duration / step_size + 1e-6) + 1
     times: FloatArray = step_size * np.arange(count, dtype=np.float64)
-    # The integral of what is held is linear between samples.
+    # The integral of a held value is linear between samples.
     knots = np.append(steering.times, max(times[-1], steering.times[-1]) + step_size)
     integral = np.concatenate([[0.0], np.cumsum(np.diff(knots) * steering.values)])
     shift = 0.0 if delay is None else delay
@@ -215,7 +215,7 @@ def _states(family: _Family, step: float, inputs: Inputs) -> FloatArray:
     steps = np.ascontiguousarray(steps.reshape(blocks, length, size, size + 1).swapaxes(0, 1))
     angles = np.append(inputs.mean_steering, np.zeros(whole - count)).reshape(blocks, length).T
     added = steps[..., -1] * angles[..., np.newaxis]
-    moved = np.zeros((blocks, size, size + 1))  # by the state at the start, and what steering adds
+    moved = np.zeros((blocks, size, size + 1))  # by the state at the start, and the share of the steering
     moved[:, :, :size] = np.eye(size)
     for transition, steered in zip(steps[..., :size], added, strict=True):
         moved = transition @ moved

@@ -107,7 +107,7 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     if model not in MODELS:
         message = f"model: {model!r}: expected one of {', '.join(MODELS)}"
         raise DynamicsError(message)
-    with np.errstate(all="ignore"):  # what overflows is no number, and is told below
+    with np.errstate(all="ignore"):  # overflow gives NaN, which is reported below
         state_matrix, input_matrix = MODELS[model](vehicle, speed)
         # A stack whose vehicles share one input matrix may come with that one alone.
         input_matrix = np.broadcast_to(input_matrix, state_matrix.shape[:-1])

@@ -1,4 +1,4 @@
-"""Systems of linear equations whose solution does not depend on how many threads there are."""
+"""Systems of linear equations with a solution that does not depend on the number of threads."""
 
 import numpy as np
 

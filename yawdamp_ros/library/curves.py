@@ -150,7 +150,7 @@ class Curves(Response):
         Raises
         ------
         PictureError
-            If there are more units than can be told apart, or the file cannot be written.
+            If there are more units than a picture can distinguish, or the file cannot be written.
         """
         # Imported here: only a drawn run needs the drawing library.
         from yawdamp_ros.pictures import save  # noqa: PLC0415

@@ -52,7 +52,7 @@ def simulate(  # noqa: PLR0913 - each is one setting of a run
     DriveError
         If there is no duration.
     SteppingError
-        If the times do not fit together, or the motion grows beyond all numbers.
+        If the times do not fit together, or the motion overflows.
     VehicleError
         If there is no such vehicle.
     YawdampError

@@ -16,7 +16,7 @@ from yawdamp_ros.logs.steering_csv import read_steering_csv, steering_column
 def read_drive_csv(path: Path, options: DriveOptions) -> Drive:
     """Read a drive from a CSV file; its steering and its times are those of `read_steering_csv`.
 
-    A cell of another column that is empty or no number is left out, so that a file may hold what was
+    A cell of another column that is empty or not a number is left out, so that a file may hold what was
     measured less often than it was steered.
 
     Raises

@@ -89,7 +89,7 @@ def load_drive(  # noqa: PLR0913 - each says how one thing is found
         Channels taken from a named place, as in ``truck/yaw_rate=-gyro:deg/s`` or
         ``speed=/can/speed.data:km/h``; a minus flips the sign.
     measured : bool
-        Whether to read what was measured, too; else only what acts on a vehicle.
+        Whether to read measurements, too; else only the inputs of a vehicle.
     until : float
         Time from the first steering sample on past which nothing need be read [s].
 

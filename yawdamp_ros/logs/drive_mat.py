@@ -87,7 +87,7 @@ def _vectors(path: Path) -> dict[str, FloatArray]:
         raise
     except OSError as error:
         raise LogError(path, f"cannot be read: {error.strerror or error}") from error
-    except Exception as error:  # whatever bytes make the library raise
+    except Exception as error:  # the library may raise anything for bad bytes
         raise LogError(path, "not a MATLAB file of version 7 or earlier") from error
     structures = [_numeric(part) for part in content.values() if isinstance(part, dict)]
     return {name: vector for part in (*structures, _numeric(content)) for name, vector in part.items()}

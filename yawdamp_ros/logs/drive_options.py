@@ -22,7 +22,7 @@ class DriveOptions(NamedTuple):
     wishes : tuple of Wish
         Channels taken from a named place.
     measured : bool
-        Whether to read what was measured, too; else only what acts on a vehicle.
+        Whether to read measurements, too; else only the inputs of a vehicle.
     until : float
         Time from the first steering sample on past which nothing need be read [s].
     """

@@ -62,7 +62,7 @@ def measured_columns(
 def channels_of(
     columns: Mapping[str, Column], times: FloatArray, values: Mapping[str, FloatArray]
 ) -> tuple[dict[str, Channel], tuple[str, ...]]:
-    """Channels of columns, without what is no number, and notes on what was left out.
+    """Channels of columns, without cells that are not numbers, and notes on the omissions.
 
     Parameters
     ----------

@@ -214,7 +214,7 @@ class MessageDecoder:
             if key not in self._decoders:
                 self._decoders[key] = _decoder(message)
             decoded = self._decoders[key] and self._decoders[key](_Whole(message.data))
-        except Exception as error:  # whatever a definition and bytes make the library raise
+        except Exception as error:  # the library may raise anything for bad bytes or definitions
             raise LogError(
                 message.file, f"{message.topic}: message at {message.log_time} ns is no {message.type_name}"
             ) from error
@@ -257,7 +257,7 @@ def _decoder(message: RecordedMessage) -> Any:  # noqa: ANN401 - made from the d
     if len(text) > LARGEST_DEFINITION:
         reason = "longer than a message definition"
         raise ValueError(reason)
-    with redirect_stderr(StringIO()):  # the library writes of what it then raises
+    with redirect_stderr(StringIO()):  # the library also prints the errors that it raises
         return DecoderFactory().decoder_for(message.message_encoding, replace(message.schema, data=text))
 
 

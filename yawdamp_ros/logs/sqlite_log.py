@@ -62,7 +62,7 @@ class SqliteLog:
                         )
         except LogError:
             raise
-        except Exception as error:  # whatever bytes make the libraries raise
+        except Exception as error:  # the libraries may raise anything for bad bytes
             reason = str(error).partition("\n")[0]
             raise LogError(self.path, f"cannot be read: {reason}") from error
 

@@ -40,7 +40,7 @@ def read_steering_csv(
     Returns
     -------
     SteeringLog
-        Its first sample at 0 s. Times in ms, us or ns are told by the name of their column or by their size,
+        Log with its first sample at 0 s. The name of the column or the size tells times in ms, us or ns,
         and its warning says so.
 
     Raises

@@ -86,7 +86,7 @@ def steering_topic(topic: str | None, topics: Mapping[str, str], path: Path, war
         return topic
     fitting = [name for name in fitting if named(name) is None]
     so_named = [name for name in fitting if "steer" in name.rpartition("/")[2].lower()]
-    # A run of the node holds what was commanded and, beside it, what was applied.
+    # A run of the node holds the commanded and the applied steering.
     exactly = [name for name in so_named if name.rpartition("/")[2] == "steering"]
     for candidates in (exactly, so_named, fitting):
         if len(candidates) == 1:

@@ -100,7 +100,7 @@ class SweepCsv:
                 found.append(self._answers(rows, sum(map(len, found))))
                 end += sum(map(len, rows))
             left = file.seek(0, os.SEEK_END) - end
-            if left >= longest:  # no row that broke off is as long
+            if left >= longest:  # an incomplete row is never as long
                 raise another(self._path)
             if left:
                 file.truncate(end)

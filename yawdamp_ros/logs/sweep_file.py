@@ -1,6 +1,6 @@
 """Files that receive a sweep's answers, and from which an interrupted sweep continues.
 
-Beside the file lies another, its name with ``.json`` added, that says what the sweep is: vehicle file,
+A second file, with ``.json`` added to the name, holds the definition of the sweep: vehicle file,
 changes, model, keys, points and measure. A sweep goes on from a file only where all of that is the same and
 the points in the rows are its own; rows are written in the order of the points, so that those missing are
 the last ones.

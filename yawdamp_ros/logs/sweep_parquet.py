@@ -65,7 +65,7 @@ class SweepParquet:
             self.close()
 
     def close(self) -> None:
-        """Write what is not yet in a part."""
+        """Write the answers that are not yet in a part."""
         if not self._held:
             return
         answers = np.concatenate(self._held)

@@ -46,7 +46,7 @@ def ros_graph(ros_arguments: Sequence[str]) -> Iterator[None]:
     _check_domain(os.environ.get("ROS_DOMAIN_ID", ""))
     for path in parameter_files(ros_arguments):
         check_parameter_file(path)
-    set_logger_level("rcl", LoggingSeverity.FATAL)  # what it refuses is raised, and said once
+    set_logger_level("rcl", LoggingSeverity.FATAL)  # a refusal raises, so that it is reported once
     try:
         rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
     except Exception as error:  # rclpy raises its own types, RuntimeError and ValueError here
@@ -81,7 +81,7 @@ def join(name: str, overrides: Mapping[str, Any]) -> Node:
     """
     parameters = [Parameter(parameter, value=value) for parameter, value in overrides.items()]
     level = get_logger_level("")
-    set_logger_level("", LoggingSeverity.FATAL)  # what is wrong with a parameter is raised, and said once
+    set_logger_level("", LoggingSeverity.FATAL)  # a bad parameter raises, so that it is reported once
     try:
         return Node(
             name, parameter_overrides=parameters, automatically_declare_parameters_from_overrides=True
@@ -99,9 +99,9 @@ def spin(node: Node, stop: StopRequest, finished: Callable[[], bool], progress: 
     waker.start()
     try:
         while not (stop.requested or finished()):
-            executor.spin_once()  # a time limit of its own would cost it a timer at every wake-up
+            executor.spin_once()  # a timeout would cost a timer at every wake-up
             progress()
-    except Exception:  # rclpy raises its own types here, by where the node was when the context went
+    except Exception:  # rclpy raises its own types, by the node's place at the shutdown
         if node.context.ok():
             raise
         node.get_logger().error("the ROS context was shut down underneath the node")

@@ -42,7 +42,7 @@ class Guard:
                 return callback(*arguments)
             except Exception as error:
                 if not self._node.context.ok():
-                    raise  # the graph is gone, and with it what the node is for
+                    raise  # the graph is gone, and the node has no purpose without it
                 sentence = one_line(f"{type(error).__name__}: {error}")
                 self._note(callback.__name__.strip("_"), sentence)
                 response: Any = arguments[-1] if arguments else None

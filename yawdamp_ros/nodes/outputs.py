@@ -99,7 +99,7 @@ class Topics:
             self._tf.publish(encoded.frames[0])
         if self._tf_static is not None and self._frames is not None:
             self._tf_static.publish(self._frames.fixed(stamp))
-            self._tf_static = None  # once is for good: the publisher is the node's
+            self._tf_static = None  # one message suffices: the publisher belongs to the node
         if self._markers is not None:
             self._markers.publish(markers(*scene))
 

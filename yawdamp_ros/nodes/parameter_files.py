@@ -54,7 +54,7 @@ def misfit(path: Path, node_name: str) -> str:
     from yawdamp_ros.plain_yaml import parse_yaml  # noqa: PLC0415 - it loads long, and few give a file
 
     names: list[str] = []
-    with suppress(ValueError, OSError):  # what rclpy has read all the same
+    with suppress(ValueError, OSError):  # rclpy has read the file nevertheless
         names = list(_node_names(parse_yaml(read_text(path, LARGEST_PARAMETER_FILE), LARGEST_PARAMETER_FILE)))
     if not names or any(_fits(name, node_name) for name in names):
         return ""

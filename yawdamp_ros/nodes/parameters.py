@@ -27,7 +27,7 @@ _OF_RCLPY = ("use_sim_time", "qos_overrides.", "start_type_description_service")
 
 
 def declare_parameters(node: Node) -> SimParameters:
-    """Declare every parameter on a node and read what it was given.
+    """Declare every parameter on a node and read the given values.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ class Recorder:
     Parameters
     ----------
     open_writer : callable
-        Starts a run in a directory that it is told.
+        Function that starts a run in a given directory.
     """
 
     def __init__(self, open_writer: Callable[[Path], RunWriter]) -> None:

@@ -116,7 +116,7 @@ class ReplayNode(Node):
         wait_for_subscribers([publisher for publisher in publishers if publisher is not None])
 
     def _wait_while_paused(self) -> float:
-        """Wait for the pause to end; return how long it was in s."""
+        """Wait for the pause to end; return its duration [s]."""
         since = time.monotonic()
         while self._paused.is_set() and not self._stop.wait(POLL):
             pass

@@ -41,7 +41,7 @@ class Server:
     Attributes
     ----------
     steps_dropped : int
-        Too late to be made up for.
+        Number of steps too late to be caught up.
     """
 
     def __init__(self, node: Node, simulator: Simulator) -> None:

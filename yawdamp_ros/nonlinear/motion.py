@@ -204,7 +204,7 @@ def all_outputs(
 
 @compiled
 def _unusual(values: FloatArray) -> int:
-    """Element that is not finite, else the largest beyond what a vehicle does; -1 where all are fine."""
+    """Index of a non-finite element, else of the largest beyond a vehicle's range; -1 if all are valid."""
     place, largest = -1, LARGEST
     for i in range(values.size):
         if math.isnan(values[i]):

@@ -230,7 +230,7 @@ def _share(loads: FloatArray, group: Sequence[int]) -> FloatArray:
 
 
 def _normalised(values: FloatArray) -> FloatArray:
-    """Shares of one; alike where all values are zero, but none where nothing is driven."""
+    """Shares that sum to one; equal if all values are zero, but zero if nothing is driven."""
     total = values.sum()
     return values / total if total > 0.0 else np.zeros(len(values))
 

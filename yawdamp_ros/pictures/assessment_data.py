@@ -30,7 +30,7 @@ FLOOR = 0.9
 
 
 def vehicle_tables(vehicle: Vehicle) -> list[dict[str, object]]:
-    """Tables of units and axles; what is assumed is marked with an asterisk.
+    """Tables of units and axles; assumed values are marked with an asterisk.
 
     Parameters
     ----------

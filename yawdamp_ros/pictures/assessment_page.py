@@ -54,7 +54,7 @@ class Heading(NamedTuple):
     Attributes
     ----------
     project, author, date : str
-        Empty where nothing is to be said.
+        Empty without a remark.
 
     Examples
     --------

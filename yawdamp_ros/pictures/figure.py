@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from yawdamp_ros.pictures.errors import PictureError
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-"""Okabe and Ito's palette, told apart with any colour vision."""
+"""Okabe and Ito's palette, distinguishable with any colour vision."""
 
 STABLE, UNSTABLE = COLOURS[0], COLOURS[1]
 GREY = "#808080"
@@ -64,7 +64,7 @@ def add_legend(figure: Figure, columns: int, handles: Sequence[Line2D] | None = 
     given = {} if handles is None else {"handles": handles}
     legend = figure.legend(loc="lower center", ncols=columns, fontsize="small", **given)
     for text in legend.get_texts():
-        text.set_parse_math(False)  # names are no formulas, and are measured as they are shown
+        text.set_parse_math(False)  # names are text, not formulas, also when measured
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph")  # as in `save`
         height = legend.get_window_extent().height / figure.bbox.height + LEGEND_MARGIN

@@ -16,7 +16,7 @@ from yawdamp_ros.stepping import Response
 LINEAR_UP_TO = {"lateral_acceleration": LINEAR_LATERAL_ACCELERATION, "articulation": LINEAR_ARTICULATION}
 """Magnitude of a quantity past which a truck leaves the linear range."""
 MOST_RUNS = 6
-"""Limit on runs: more could not be told apart."""
+"""Largest number of runs that a picture can distinguish."""
 
 
 class Curve(NamedTuple):
@@ -102,7 +102,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
     Raises
     ------
     PictureError
-        If there are more runs, or more units, than can be told apart.
+        If there are more runs, or more units, than a picture can distinguish.
     """
     responses = [response for _, response in runs]
     units = tuple(dict.fromkeys(unit for response in responses for unit in response.unit_names))

@@ -41,7 +41,7 @@ def runs_figure(runs: Sequence[tuple[str, Response]]) -> Figure:
     Raises
     ------
     PictureError
-        If there are more runs, or more units, than can be told apart.
+        If there are more runs, or more units, than a picture can distinguish.
     """
     panels = run_panels(runs)
     rows = (len(panels) + 1) // 2

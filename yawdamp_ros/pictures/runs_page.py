@@ -56,7 +56,7 @@ def runs_page(runs: Sequence[tuple[str, Response]]) -> str:
     Raises
     ------
     PictureError
-        If there are more runs, or more units, than can be told apart.
+        If there are more runs, or more units, than a picture can distinguish.
     """
     panels = run_panels(runs)
     names = [html.escape(name) for name, _ in runs]

@@ -9,7 +9,7 @@ from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.runs.run_writer import RunWriter, SerialisedMessage
 
 QUEUE_LENGTH = 6_000
-"""Samples that may wait for the disk, a minute at 100 Hz."""
+"""Largest number of samples that wait for the disk, a minute at 100 Hz."""
 FLUSH_PERIOD = 0.5
 """Longest time that a message stays in memory, where a kill would lose it [s]."""
 
@@ -17,7 +17,7 @@ FLUSH_PERIOD = 0.5
 class BackgroundWriter:
     """A thread that feeds a `RunWriter` from a bounded queue.
 
-    `offer` returns at once, whatever happens to the disk: messages that cannot be written are counted in
+    `offer` returns at once, whatever the state of the disk: messages that cannot be written are counted in
     `lost`, and the reason is kept in `failure`.
 
     Parameters
@@ -66,7 +66,7 @@ class BackgroundWriter:
             self._lost_before_queue += len(messages)
 
     def close(self) -> None:
-        """Write what is queued, finish the file, and wait for that."""
+        """Write the queue, finish the file, and wait until this is done."""
         self._queue.put(None)
         self._thread.join()
 

@@ -74,7 +74,7 @@ def first_mismatch(recorded: Response, repeated: Response, tolerance: float) -> 
     Parameters
     ----------
     recorded, repeated : Response
-        Of the same samples.
+        Responses of the same samples.
     tolerance : float
         0 asks for the same bits.
 

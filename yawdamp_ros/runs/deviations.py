@@ -43,7 +43,7 @@ class Deviations:
         """Add a recorded value and its repetition."""
         deviation = abs(repeated - recorded)
         rising = self._rising.setdefault(quantity(topic, field), [])
-        if not rising or not deviation <= rising[-1][0]:  # said this way round, what is no number counts, too
+        if not rising or not deviation <= rising[-1][0]:  # written so that NaN counts, too
             rising.append((deviation, Difference(topic, time, field, repr(recorded), repr(repeated))))
 
     def first_beyond(self, tolerance: float, sizes: Mapping[str, float]) -> Difference | None:

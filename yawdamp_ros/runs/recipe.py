@@ -229,7 +229,7 @@ def _without_tail(message: Any, data: bytes) -> bytes:  # noqa: ANN401 - a gener
     for index, text in enumerate(texts):
         end += -end % 4 + 4 + len(text.encode()) + 1
         if not index:
-            end += -end % 4 + 4  # how many names follow
+            end += -end % 4 + 4  # number of names that follow
     for values in (message.position, message.velocity, message.effort):
         end += -end % 4 + 4
         if len(values):

@@ -40,10 +40,10 @@ def recorded_vehicle(path: Path) -> Vehicle:
     'interlink'
     """
     log = McapLog(path)
-    next(log.messages(), None)  # What explains a run comes before its first message.
+    next(log.messages(), None)  # The metadata that explains a run precedes its first message.
     try:
         text = log.attachments[VEHICLE_FILE].decode()
         changes = json.loads(log.metadata[METADATA_NAME]["vehicle_overrides"])
         return parse_vehicle(text, str(path), changes)
-    except Exception as error:  # whatever its texts hold in place of what they should
+    except Exception as error:  # invalid texts may raise anything
         raise LogError(path, f"it holds no vehicle: {log.warning or error}") from error

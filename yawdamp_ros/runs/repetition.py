@@ -27,7 +27,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class Answer:
-    """Result of repeating a run: what was promised, and whether it holds.
+    """Result of repeating a run: the promise, and whether it holds.
 
     Attributes
     ----------

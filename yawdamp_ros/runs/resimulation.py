@@ -62,7 +62,7 @@ class Resimulation:
     Raises
     ------
     LogError
-        If it is no run, or does not hold what is needed.
+        If it is no run, or lacks data for the repetition.
     """
 
     def __init__(self, path: Path) -> None:
@@ -105,9 +105,9 @@ class Resimulation:
             self._source = _Recorded(motion.steering_angle)
             self._run = Run(motion, self._grid, self._source, [self._encoder])
             self._begun = bool(initial["sampled"])
-            if self._begun:  # the recording goes on from a sample that is not in it
+            if self._begun:  # the recording continues after a sample that it does not hold
                 self._encoder.go_on_from(motion.step, motion.steering_angle)
-        except Exception as error:  # whatever its texts hold in place of what they should
+        except Exception as error:  # invalid texts may raise anything
             why = self._log.warning or error
             raise LogError(path, f"not a run of this package, or not a whole one: {why}") from error
         self.build = build_of_numerics()
@@ -145,13 +145,13 @@ class Resimulation:
         """
         try:
             yield from self._compared()
-        except Exception as error:  # whatever the bytes of a message make the libraries raise
+        except Exception as error:  # the libraries may raise anything for bad bytes
             raise LogError(
                 self._log.path, f"cannot be run again beyond {self.duration:g} s: {error}"
             ) from error
 
     def write(self, encoded: Encoded) -> None:
-        """Compare a sample of the repetition with what was recorded at its instant; see `EncodedSink`."""
+        """Compare a sample of the repetition with the recorded one of its instant; see `EncodedSink`."""
         for name, data in zip(encoded.names, encoded.messages[0], strict=True):
             # Outputs added after the version that recorded the run are not in it.
             if self.difference is None and name in self._topics:
@@ -175,7 +175,7 @@ class Resimulation:
                 continue
             self._recorded = recorded
             self.duration = self._grid.seconds(step)
-            with np.errstate(all="ignore"):  # what overflows is no number, and so a difference
+            with np.errstate(all="ignore"):  # overflow gives NaN, and so a difference
                 if step == run.motion.step:
                     run.start()
                 else:
@@ -216,7 +216,7 @@ class Resimulation:
                     inputs.append(self._applied(message, step))
                 elif message.topic in topics:
                     outputs[message.topic] = message.data
-            if self.warning:  # the last instant of a run that was cut off need not be whole
+            if self.warning:  # the last instant of a truncated run may be incomplete
                 return
             yield step, jump, inputs, outputs
 

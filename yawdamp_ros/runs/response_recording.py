@@ -34,7 +34,7 @@ def read_response_recording(path: Path) -> Response:
     Parameters
     ----------
     path : Path
-        Run directory or its MCAP file. Of one that was cut off, what is there.
+        Run directory or its MCAP file; of a truncated one the existing part is read.
 
     Returns
     -------

@@ -165,7 +165,7 @@ class RunWriter:
         self._flushed = self._taken
 
     def close(self) -> None:
-        """Finish the file and write metadata.yaml; a file that failed before is left as it is."""
+        """Finish the file and write metadata.yaml; a file that failed before is not changed."""
         if self._failed:
             return
         try:
@@ -247,7 +247,7 @@ class RunWriter:
 
     def _failure(self, error: OSError) -> LogError:
         self._failed = True
-        with suppress(OSError):  # what is buffered fails once more; the descriptor is freed all the same
+        with suppress(OSError):  # flushing the buffer fails again; the descriptor is freed nevertheless
             self._close_file()
         return LogError(self.directory, f"cannot be recorded to: {error.strerror}")
 

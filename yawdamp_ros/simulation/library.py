@@ -49,7 +49,7 @@ def simulate(  # noqa: PLR0913 - each is one setting of a run
     ------
     SteppingError
         If the times do not fit together, or the steering is neither a function nor an angle for every step,
-        or the motion grows beyond all numbers.
+        or the motion overflows.
     VehicleError
         If there is no such vehicle.
     DynamicsError

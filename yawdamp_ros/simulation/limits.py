@@ -112,7 +112,7 @@ def limit_violation(
 
 def _within(values: FloatArray, limit: float) -> bool:
     """Return whether every magnitude is within a limit; NaN is not."""
-    if values.ndim == 1:  # of a few units NumPy takes longer
+    if values.ndim == 1:  # NumPy takes longer for a few units
         return all(abs(value) <= limit for value in values.tolist())
     return bool((np.abs(values) <= limit).all())
 

@@ -164,7 +164,7 @@ class NonlinearMotion:
         }
 
     def restore(self, snapshot: Mapping[str, Any]) -> None:
-        """Go on from a snapshot of the same vehicle; its inputs count as told."""
+        """Go on from a snapshot of the same vehicle; its inputs count as reported."""
         self._step = snapshot["step"]
         self._first = np.array(snapshot["first"])
         self._first_speed = float(self._first[self._dynamics.layout.velocity.start])

@@ -13,7 +13,7 @@ from yawdamp_ros.vehicle import Vehicle
 class Motion(Protocol):
     """A vehicle that moves in fixed steps.
 
-    The bits of a run depend on the inputs and their steps alone, not on how many steps are taken at once.
+    The bits of a run depend only on the inputs and their steps, not on the number of steps taken at once.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ class Motion(Protocol):
         """
 
     def restore(self, snapshot: Mapping[str, Any]) -> None:
-        """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
+        """Go on from a snapshot of the same vehicle and model; its inputs count as reported."""
 
     def linearise(self) -> LinearModel:
         """Linear model about straight running at the present speed."""

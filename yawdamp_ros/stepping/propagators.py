@@ -47,7 +47,7 @@ class Propagators:
             As `linear_model`.
         """
         if not LOWEST_SPEED <= speed < math.inf:
-            linear_model(self._vehicle, speed, self._model)  # which says what is wrong
+            linear_model(self._vehicle, speed, self._model)  # raises the error
         numbers = self._parts.at(speed)
         constant, by_inverse, by_speed = self._norms
         step = exponential(self._rates(numbers), constant + by_inverse / speed + by_speed * speed)

@@ -118,7 +118,7 @@ def sample_run(motion: Motion, grid: TimeGrid, steering: Steering, duration: flo
     Raises
     ------
     SteppingError
-        If the motion grows beyond all numbers.
+        If the motion overflows.
     """
     last = grid.samples_in(duration)
     motion.apply(AppliedInput(motion.step, "steering", steering(0.0)))
@@ -152,7 +152,7 @@ def respond(model: LinearModel, angles: FloatArray, grid: TimeGrid) -> Response:
     Raises
     ------
     SteppingError
-        If the motion grows beyond all numbers.
+        If the motion overflows.
     """
     stepper = Stepper(model, grid.step_size)
     stepper.steer(float(angles[0]))

@@ -74,7 +74,7 @@ class Event(NamedTuple):
     where : str
         Unit, joint or wheel.
     final : bool
-        Whether the motion means nothing from here on.
+        Whether the motion has no meaning from here on.
 
     Examples
     --------

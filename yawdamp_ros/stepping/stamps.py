@@ -47,7 +47,7 @@ class Stamps:
         clock : int
             Time of the clock at that step [ns].
         tolerance : int
-            Largest difference that is left as it is [ns].
+            Largest difference that causes no jump [ns].
 
         Returns
         -------

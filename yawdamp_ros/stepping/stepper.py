@@ -146,7 +146,7 @@ class Stepper:
     def snapshot(self) -> Mapping[str, Any]:
         """State sufficient for `restore`; a block starts here for both."""
         self._yaw.turn(self._motion.start_block())
-        self._set_ground_velocity()  # of the yaw as `restore` will know it, which is rounded otherwise
+        self._set_ground_velocity()  # from the yaw as `restore` computes it, with its rounding
         return {
             "step": self.step,
             "speed": self.speed,
@@ -161,7 +161,7 @@ class Stepper:
         }
 
     def restore(self, snapshot: Mapping[str, Any]) -> None:
-        """Go on from a snapshot of the same vehicle and model; its inputs count as told."""
+        """Go on from a snapshot of the same vehicle and model; its inputs count as reported."""
         self.change_speed(snapshot["speed"])
         self.step = snapshot["step"]
         self._motion.stand(np.array(snapshot["state"]))

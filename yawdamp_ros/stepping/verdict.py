@@ -4,7 +4,7 @@ from enum import StrEnum
 
 
 class Verdict(StrEnum):
-    """Keys that say what the node did with a command or a speed.
+    """Keys of the node's decision on a command or a speed.
 
     Examples
     --------

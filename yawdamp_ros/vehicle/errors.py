@@ -13,7 +13,7 @@ class VehicleError(YawdampError):
     key : str
         Path of the wrong key, as `--set` takes it (``units.1.mass``); empty for the whole file.
     problem : str
-        The value found and what was expected.
+        Value found and value expected.
 
     Examples
     --------

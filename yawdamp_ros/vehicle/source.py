@@ -23,7 +23,7 @@ def vehicle_source(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicl
     Returns
     -------
     VehicleSource
-        The file as it is, where it names no .tir file.
+        The file itself if it names no .tir file.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def vehicle_source(vehicle: str | Path, overrides: Sequence[str] = ()) -> Vehicl
             if tyre.endswith(".tir") and "\n" not in tyre:
                 axle["tyre"] = _tyre_text(Path(vehicle).parent / tyre)
     except (AttributeError, KeyError, TypeError):
-        return found  # not a vehicle: who parses it says why
+        return found  # not a vehicle: the parser reports why
     text = json.dumps(data, indent=1)
     if len(text) > LARGEST_FILE:
         problem = f"{len(text)} characters with its .tir files: expected up to {LARGEST_FILE}"

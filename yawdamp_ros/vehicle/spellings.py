@@ -210,7 +210,7 @@ def _stiffened(units: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         return list(units)
     try:
         carried = _static_loads(units)
-    except (KeyError, TypeError, ZeroDivisionError):  # no vehicle yet: the schema tells of it
+    except (KeyError, TypeError, ZeroDivisionError):  # not a vehicle: the schema reports it
         return list(units)
     made = []
     for unit, loads in zip(units, carried, strict=True):

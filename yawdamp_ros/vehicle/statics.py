@@ -94,7 +94,7 @@ def supports(unit: Unit) -> Supports:
 def static_loads(vehicle: Vehicle, *, given: bool = True) -> tuple[StaticLoads, ...]:
     """Loads of every axle and hitch at rest.
 
-    Axles of one support share it alike. Where all axles of a unit have a `static_load`, that is taken, and
+    Axles of one support share it equally. If all axles of a unit have a `static_load`, that is used, and
     the hitch carries the rest.
 
     Parameters
