@@ -163,7 +163,7 @@ def peak_amplifications(model: LinearModel) -> tuple[Answers, Answers]:
     Returns
     -------
     gains, frequencies : Answers
-        The largest gain within `FREQUENCIES`, and where it is in Hz; at 0 Hz it is that of a steady turn,
+        Largest gain within `FREQUENCIES`, and its frequency [Hz]; at 0 Hz it is that of a steady turn,
         which is 1. None where the vehicle is unstable.
     """
     reasons = {

@@ -235,7 +235,7 @@ def outcome(findings: Iterable[Finding], scheme: Scheme) -> Outcome:
     Parameters
     ----------
     findings : iterable of Finding
-        As `assess` gives them for the scheme.
+        Findings of `assess` for the scheme.
     scheme : Scheme
 
     Returns

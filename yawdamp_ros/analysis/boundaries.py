@@ -155,7 +155,7 @@ def critical_speed(boundaries: Iterable[Boundary]) -> float | None:
     Parameters
     ----------
     boundaries : iterable of Boundary
-        As `speed_boundaries` returns them.
+        Boundaries from `speed_boundaries`.
 
     Returns
     -------
@@ -182,7 +182,7 @@ def zero_damping_speed(boundaries: Iterable[Boundary]) -> float | None:
     Parameters
     ----------
     boundaries : iterable of Boundary
-        As `speed_boundaries` returns them.
+        Boundaries from `speed_boundaries`.
 
     Returns
     -------

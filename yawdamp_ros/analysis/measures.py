@@ -86,7 +86,7 @@ class VehicleMeasure:
     Attributes
     ----------
     name, unit, definition : str
-        As of `Measure`.
+        Name, unit and definition, as in `Measure`.
     value_of : callable
         Value of a vehicle at a speed in m/s; None where it does not apply, as
         the swing of trailers to a truck.

@@ -85,7 +85,7 @@ class Scheme:
     ----------
     name, title : str
     levels : tuple of str
-        The hardest first; one without a name where the scheme has none.
+        Levels, the hardest first; a scheme without levels has one without a name.
     measures : tuple of str
         Measures in the order of the file.
     requirements : tuple of Requirement

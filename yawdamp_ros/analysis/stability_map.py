@@ -21,7 +21,7 @@ def boundary_segments(study: Study, first: FloatArray, second: FloatArray) -> Fl
     study : Study
         Study of two coordinates.
     first, second : ndarray, shape (a,) and (b,)
-        The grid's values of each, rising or falling.
+        Values of each coordinate on the grid, rising or falling.
 
     Returns
     -------

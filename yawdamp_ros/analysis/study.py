@@ -236,7 +236,7 @@ def evaluate_all(
     Yields
     ------
     ndarray, shape (chunk, c)
-        As the study's `evaluate` gives them.
+        Answers of the study's `evaluate`.
     """
     chunks = (points[begin : begin + study.chunk] for begin in range(start, len(points), study.chunk))
     yield from mapped(study.evaluate, chunks)

@@ -81,7 +81,7 @@ def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
     Returns
     -------
     float or None
-        None where no trailer has a body; the largest of several.
+        Largest value of all trailers; None if no trailer has a body.
 
     Examples
     --------
@@ -105,7 +105,7 @@ def frontal_swing_difference_of_maxima(vehicle: Vehicle) -> float | None:
     Returns
     -------
     float or None
-        None where no trailer has a body; the largest of several.
+        Largest value of all trailers; None if no trailer has a body.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def tail_swing(vehicle: Vehicle) -> float:
     Returns
     -------
     float
-        The largest of the units that have a body.
+        Largest value of the units that have a body.
 
     Examples
     --------

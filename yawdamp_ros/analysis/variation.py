@@ -19,7 +19,7 @@ class Variation:
     Attributes
     ----------
     keys : tuple of str
-        As overrides take them.
+        Keys, as in overrides.
     values : tuple of float
         Evenly spaced.
 

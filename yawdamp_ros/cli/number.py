@@ -10,7 +10,7 @@ def number(value: float, spec: str = ".4g") -> str:
     Parameters
     ----------
     value : float
-        In SI units.
+        Value in SI units.
     spec : str
         Format specification.
 

@@ -35,7 +35,7 @@ def print_table(
     columns : sequence of str
         Headings.
     rows : sequence of sequence of str
-        The first column is text, the others are numbers.
+        Rows; the first column is text, the others are numbers.
     prose : sequence of int
         Columns that may be shortened, the first one first.
     width : int, optional

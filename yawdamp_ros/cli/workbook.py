@@ -15,7 +15,7 @@ def save_workbook(rows: Sequence[Sequence[object]], path: str | Path) -> None:
     Parameters
     ----------
     rows : sequence of sequence
-        The first holds the headings.
+        Rows; the first holds the headings.
     path : str or Path
 
     Raises

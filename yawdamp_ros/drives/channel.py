@@ -53,12 +53,12 @@ def quantity_of(name: str) -> str:
     Parameters
     ----------
     name : str
-        As in ``truck/yaw_rate``.
+        Name, as in ``truck/yaw_rate``.
 
     Returns
     -------
     str
-        As in ``yaw_rate``.
+        Quantity, as in ``yaw_rate``.
 
     Examples
     --------

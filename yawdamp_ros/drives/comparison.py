@@ -28,7 +28,7 @@ class ChannelComparison:
     Attributes
     ----------
     output : str
-        As in ``truck/yaw_rate``.
+        Name of the output, as in ``truck/yaw_rate``.
     unit : str
     times, measured, simulated : ndarray, shape (m,)
         Times of the measurement [s], and both signals there in SI units.

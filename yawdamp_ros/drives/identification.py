@@ -83,7 +83,7 @@ class Identification:
     fitted, checked : list of ChannelComparison
         Model and measurement, less the sensors' offsets, on the part that was fitted and on the rest.
     before : list of ChannelComparison
-        The same on the rest, with the parameters of the start.
+        Comparison on the rest, with the initial parameters.
     noise_order : int
         Order of the autoregression of the residuals.
     overrides : list of str
@@ -176,11 +176,11 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
     source : VehicleSource
         Source of the vehicle.
     parameters : sequence of str
-        As `Subject` takes them.
+        Names of parameters, as for `Subject`.
     speed : float, optional
         Speed for a drive without one [m/s]; the vehicle's own unless given.
     predictor : callable
-        The model.
+        Function that predicts the outputs.
     fitted_share : float
         Share of the drive that is fitted, from its start.
 

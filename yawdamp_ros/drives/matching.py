@@ -15,7 +15,7 @@ class Match(NamedTuple):
     Attributes
     ----------
     output : str
-        As in ``truck/yaw_rate`` or ``articulation_1``.
+        Name of the output, as in ``truck/yaw_rate`` or ``articulation_1``.
     channel : Channel
 
     Examples

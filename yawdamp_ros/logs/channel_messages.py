@@ -11,7 +11,7 @@ class Field(NamedTuple):
     Attributes
     ----------
     quantity : str
-        As in `QUANTITIES`.
+        Quantity, one of `QUANTITIES`.
     path : str
         Path of its field, as in ``angular_velocity.z``.
     """

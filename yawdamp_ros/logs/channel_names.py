@@ -63,7 +63,7 @@ def named(name: str) -> Named | None:
     Parameters
     ----------
     name : str
-        As in ``speed_kmh``, ``truck/yaw_rate`` or ``/truck/yaw_rate``.
+        Name in the log, as in ``speed_kmh``, ``truck/yaw_rate`` or ``/truck/yaw_rate``.
     """
     prefix, _, last = name.strip("/").rpartition("/")
     word, unit = _without_unit(last.lower().replace(" ", "_"))

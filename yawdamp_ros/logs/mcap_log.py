@@ -44,7 +44,7 @@ class RecordedMessage(NamedTuple):
     file : Path
     topic : str
     type_name : str
-        As in ``sensor_msgs/msg/Imu``.
+        Message type, as in ``sensor_msgs/msg/Imu``.
     log_time : int
         Time of logging [ns].
     data : bytes

@@ -38,9 +38,9 @@ def time_unit(column: str, times: Sequence[float]) -> TimeUnit:
     Parameters
     ----------
     column : str
-        As ``time_ms``.
+        Name of the column, as in ``time_ms``.
     times : sequence of float
-        The first of the table, not decreasing.
+        First times of the table, not decreasing.
 
     Returns
     -------

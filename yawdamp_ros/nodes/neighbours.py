@@ -163,7 +163,7 @@ def listening(
     ----------
     topic : str
     publisher : TopicEndpointInfo
-        The node's own.
+        Publisher of the node.
     listeners : sequence of TopicEndpointInfo
 
     Returns

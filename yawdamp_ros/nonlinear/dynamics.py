@@ -41,7 +41,7 @@ class Steps:
     Attributes
     ----------
     states : ndarray, shape (k, m)
-        The state after every ``every`` steps.
+        State after every ``every`` steps.
     taken : int
         Steps taken.
     rolled_over : str

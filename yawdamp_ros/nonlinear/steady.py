@@ -61,7 +61,7 @@ class Linearisation:
     states : ndarray of int, shape (k,)
         Elements of the model's state that x holds; those that the settings keep at rest are left out.
     output_names : tuple of str
-        As `LinearModel.output_names`, then the roll angles.
+        Names as in `LinearModel.output_names`, then those of the roll angles.
 
     Examples
     --------

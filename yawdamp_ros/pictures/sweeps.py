@@ -45,7 +45,7 @@ def map_figure(axes: tuple[Variation, ...], values: FloatArray, name: str, segme
     axes : tuple of Variation
         Two.
     values : ndarray, shape (a b,)
-        The second parameter varying fastest.
+        Values, the second parameter varying fastest.
     name : str
         Name of the drawn quantity.
     segments : ndarray, shape (s, 2, 2)

@@ -34,7 +34,7 @@ class MessageDefinition(NamedTuple):
     text : str
         Encoding ``ros2msg``.
     type_hash : str
-        As in REP-2016; empty where the package does not tell.
+        Hash by REP-2016; empty if the package has none.
     """
 
     text: str
@@ -48,7 +48,7 @@ def message_definition(type_name: str) -> MessageDefinition:
     Parameters
     ----------
     type_name : str
-        As in ``sensor_msgs/msg/Imu``.
+        Message type, as in ``sensor_msgs/msg/Imu``.
 
     Returns
     -------

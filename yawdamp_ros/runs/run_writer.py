@@ -38,7 +38,7 @@ class Channel(NamedTuple):
     topic : str
         Fully qualified.
     type_name : str
-        As in ``sensor_msgs/msg/Imu``.
+        Message type, as in ``sensor_msgs/msg/Imu``.
     latched : bool
         Whether its last message is for subscribers that come later, too.
 

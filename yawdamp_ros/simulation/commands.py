@@ -122,7 +122,7 @@ class Commands:
         name : str
             One of `held`.
         value : float
-            In SI units.
+            Value in SI units.
         """
         if name in LONGITUDINAL and name != self._settings.longitudinal_source:
             return self.held[name].reject(Verdict.NOT_SOURCE)

@@ -34,7 +34,7 @@ def pose(sample: Sample, unit: int, ahead: float = 0.0) -> tuple[complex, comple
     place : complex
         ``x + i y`` of the point in the ground frame, m.
     half : complex
-        As `half_turns`.
+        Half turn, as from `half_turns`.
     """
     heading = sample.heading[unit]
     place = complex(sample.x[unit], sample.y[unit]) + ahead * heading

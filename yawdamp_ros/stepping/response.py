@@ -32,7 +32,7 @@ class Response:
     time : ndarray, shape (m,)
         Time [s].
     steering_angle : ndarray, shape (m,)
-        Road-wheel steer angle in rad, in force from that instant on.
+        Road-wheel steer angle, in force from that instant on [rad].
     yaw, yaw_rate, lateral_acceleration : ndarray, shape (m, n)
         rad, rad/s, m/s^2.
     articulation : ndarray, shape (m, n - 1)
@@ -179,9 +179,9 @@ def linear_response(
     Returns
     -------
     states : ndarray, shape (k, 2 n)
-        As `LinearModel.state_names`.
+        States in the order of `LinearModel.state_names`.
     outputs : ndarray, shape (k, 4 n - 1)
-        As `LinearModel.output_names`; the same bits as a `Stepper`'s samples.
+        Outputs in the order of `LinearModel.output_names`; the same bits as a `Stepper`'s samples.
 
     Examples
     --------

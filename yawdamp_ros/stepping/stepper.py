@@ -247,7 +247,7 @@ class Stepper:
         Returns
         -------
         states : ndarray, shape (k, 2 n + 1)
-            As `_Instants.states`.
+            States as in `_Instants`.
         blocks : list of (int, YawParts)
             Steps, and the yaw at the start of the block.
         positions : ndarray of complex, shape (k,)

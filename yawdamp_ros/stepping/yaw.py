@@ -15,7 +15,7 @@ class YawParts(NamedTuple):
     value, remainder : float
         A number, and what its rounding left over, rad.
     wrapped : float
-        The value without whole turns, rad.
+        Value without whole turns [rad].
     """
 
     value: float
@@ -30,7 +30,7 @@ class Yaw:
     ----------
     parts : YawParts
     direction : float
-        The yaw without whole turns, rad.
+        Yaw without whole turns [rad].
     """
 
     def __init__(self) -> None:

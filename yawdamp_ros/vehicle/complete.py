@@ -236,7 +236,7 @@ def given(vehicle: Vehicle) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        As ``--set`` takes them.
+        Keys, as for ``--set``.
 
     Examples
     --------

@@ -29,7 +29,7 @@ class Axle:
     Attributes
     ----------
     position : float
-        Distance from the unit's centre of gravity in m, forward positive.
+        Distance from the unit's centre of gravity, forward positive [m].
     cornering_stiffness : float
         Cornering stiffness of the whole axle, positive [N/rad].
     steered : bool

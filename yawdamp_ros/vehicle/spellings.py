@@ -87,7 +87,7 @@ def canonical(data: Any, source: str) -> Any:  # noqa: ANN401 - of any file
     Parameters
     ----------
     data : object
-        As read; it is not changed.
+        Data as read; it is not changed.
     source : str
         Name of the file in error messages.
 
