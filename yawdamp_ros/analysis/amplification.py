@@ -195,7 +195,7 @@ def _ends(model: LinearModel) -> FrequencyResponse:
 
 
 def _ratios(ends: FrequencyResponse, frequencies: FloatArray) -> FloatArray:
-    """Last over first at frequencies in Hz, shape (..., k)."""
+    """Last over first at frequencies [Hz], shape (..., k)."""
     shape = (*frequencies.shape[:-1], len(ends.inputs))
     s = np.asarray(2j * np.pi * np.broadcast_to(frequencies, shape), dtype=np.complex128)
     with np.errstate(divide="ignore", invalid="ignore"):  # a vehicle without a steady sine has a reason

@@ -99,7 +99,7 @@ def speed_boundaries(
     model : str
         One of `yawdamp_ros.dynamics.MODELS`.
     speeds : (float, float)
-        Range that is searched, in m/s, see `speed_brackets`.
+        Range that is searched [m/s], see `speed_brackets`.
 
     Returns
     -------

@@ -212,7 +212,7 @@ class LaneChangeRuns:
         return self._motion(self._rows(known, through))
 
     def steering(self) -> FloatArray:
-        """Road-wheel steer angles in rad, shape (k, m)."""
+        """Road-wheel steer angles [rad], shape (k, m)."""
         none = np.zeros((self._count, 1, self._size))
         return self._motion(self._rows(none, np.ones((self._count, 1))))[:, 0]
 

@@ -88,7 +88,7 @@ class VehicleMeasure:
     name, unit, definition : str
         Name, unit and definition, as in `Measure`.
     value_of : callable
-        Value of a vehicle at a speed in m/s; None where it does not apply, as
+        Value of a vehicle at a speed [m/s]; None where it does not apply, as
         the swing of trailers to a truck.
     speed : float or None
         Speed that its standard asks for [m/s]; None for the vehicle's own.

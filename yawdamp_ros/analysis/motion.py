@@ -21,7 +21,7 @@ def free_motion(
     matrix : ndarray, shape (k, m, m)
     start : ndarray, shape (k, m)
     step : float or ndarray, shape (k,)
-        Time between instants in s.
+        Time between instants [s].
     count : int
         Number of instants, the start among them.
     rows : ndarray, shape (k, q, m)

@@ -18,7 +18,7 @@ STEADY_RADIUS = 400.0
 
 
 class Path(NamedTuple):
-    """Ground path of an axle in m.
+    """Ground path of an axle [m].
 
     Attributes
     ----------

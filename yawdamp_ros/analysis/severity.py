@@ -39,7 +39,7 @@ class Severity(NamedTuple):
         Handling diagram [rad]: for the lead unit the steer angle minus the Ackermann angle, for a towed unit
         the side slip angle at the middle of its axles.
     roll, load_transfer_ratio : ndarray, shape (m, n)
-        Roll in rad.
+        Roll [rad].
     limit : str
         Reason that no harder turn exists; empty if the last one is the one asked for.
     """

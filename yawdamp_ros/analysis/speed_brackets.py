@@ -48,7 +48,7 @@ class Brackets(NamedTuple):
         return Brackets._make(part[places] for part in self)
 
     def refined(self, matrices: StateMatrices) -> FloatArray:
-        """Speed of each change in m/s, by bisection of all brackets at once."""
+        """Speed of each change [m/s], by bisection of all brackets at once."""
         of_brackets = matrices.of_vehicles(self.vehicles)
         low, high = self.low, self.high
         if len(low):
@@ -100,5 +100,5 @@ def speed_brackets(matrices: StateMatrices, speeds: tuple[float, float] = SPEEDS
 
 
 def _growth(matrices: StateMatrices, speed: FloatArray | float) -> FloatArray:
-    """Largest real part of the eigenvalues of each vehicle in 1/s."""
+    """Largest real part of the eigenvalues of each vehicle [1/s]."""
     return np.asarray(np.linalg.eigvals(matrices.at(speed)).real.max(axis=-1), dtype=np.float64)

@@ -18,11 +18,11 @@ class SteadyTurn:
     Attributes
     ----------
     steering_angle : float
-        Road-wheel steer angle over yaw rate, in s.
+        Road-wheel steer angle over yaw rate [s].
     lateral_velocity : float
         Lateral velocity of the lead unit's centre of gravity over yaw rate [m].
     articulation : ndarray, shape (n - 1,)
-        Articulation angles over yaw rate, in s.
+        Articulation angles over yaw rate [s].
 
     Examples
     --------
@@ -45,7 +45,7 @@ class Steering:
     Attributes
     ----------
     equivalent_wheelbase : float
-        Steer angle times radius at vanishing speed, in m. Of a two-axle vehicle it is the wheelbase; the
+        Steer angle times radius at vanishing speed [m]. Of a two-axle vehicle it is the wheelbase; the
         tyres of an axle group scrub in a turn, which lengthens it.
     understeer_gradient : float
         Understeer gradient [rad/(m/s^2)]; positive is understeer.

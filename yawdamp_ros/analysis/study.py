@@ -26,7 +26,7 @@ STUDIED = (STABILITY, *ALL_MEASURES)
 """Answers that a study may ask for: stability alone, or a measure beside it."""
 
 LARGEST_REAL_PART = "largest_real_part"
-"""Column of the largest real part of the eigenvalues, in 1/s; below 0 the vehicle is stable."""
+"""Column of the largest real part of the eigenvalues [1/s]; below 0 the vehicle is stable."""
 
 _EIGENVALUES = (STABILITY, "least_damping_ratio")
 _LARGE_CHUNK, _CHUNK, _SOME, _FEW = 25_000, 500, 100, 5

@@ -43,12 +43,12 @@ class TransferFunction:
 
     @property
     def poles(self) -> ComplexArray:
-        """Eigenvalues of the state matrix in 1/s, shape (m,)."""
+        """Eigenvalues of the state matrix [1/s], shape (m,)."""
         return np.sort_complex(np.asarray(np.linalg.eigvals(self.state_matrix), dtype=np.complex128))
 
     @property
     def zeros(self) -> ComplexArray:
-        """Finite zeros in 1/s, shape (m,) with feed-through and fewer without.
+        """Finite zeros [1/s], shape (m,) with feed-through and fewer without.
 
         They are the finite generalised eigenvalues of the Rosenbrock matrix [[A, B], [C, D]].
         """
@@ -78,7 +78,7 @@ class TransferFunction:
         return float(self(0j).real)
 
     def __call__(self, s: complex) -> complex:
-        """Value at a complex frequency in 1/s.
+        """Value at a complex frequency [1/s].
 
         Raises
         ------

@@ -117,11 +117,11 @@ class Channel:
         return held
 
     def interpolated(self, times: FloatArray) -> FloatArray:
-        """Value at each time in s, linear between samples."""
+        """Value at each time [s], linear between samples."""
         return np.interp(times, self.times, self.values)
 
     def window(self, start: float, end: float, *, held: bool = False) -> "Channel":
-        """Samples from a start to an end in s; time starts anew at the start.
+        """Samples from a start to an end [s]; time starts anew at the start.
 
         Parameters
         ----------

@@ -91,7 +91,7 @@ class Drive:
 
     @property
     def duration(self) -> float:
-        """Time of the last steering sample in s, or of the last of any channel where none steers."""
+        """Time of the last steering sample [s], or of the last of any channel where none steers."""
         if "steering" in self:
             return float(self["steering"].times[-1])
         return max((float(channel.times[-1]) for channel in self.channels.values()), default=0.0)
@@ -123,7 +123,7 @@ class Drive:
         return replace(self, channels={**self.channels, "steering": divided})
 
     def window(self, start: float, duration: float | None = None) -> "Drive":
-        """Part from a start on, for a duration, both in s; its time starts anew.
+        """Part from a start on, for a duration, both [s]; its time starts anew.
 
         Raises
         ------

@@ -32,7 +32,7 @@ class Inputs(NamedTuple):
     times : ndarray, shape (k,)
         Times [s].
     steering : ndarray, shape (k,)
-        Road-wheel steer angle in force at each instant, rad.
+        Road-wheel steer angle in force at each instant [rad].
     mean_steering : ndarray, shape (k,)
         Mean steering from each instant to the next [rad].
     speed : ndarray, shape (k,)

@@ -93,7 +93,7 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     ----------
     vehicle : Vehicle
     speed : float
-        Longitudinal speed u in m/s, positive; of a stack, one for all or for each.
+        Longitudinal speed u [m/s], positive; of a stack, one for all or for each.
 
     Returns
     -------

@@ -24,7 +24,7 @@ def cg_rows(vehicle: Vehicle) -> FloatArray:
     Returns
     -------
     ndarray, shape (..., n, n + 1)
-        First column 1, the others lever arms in m; of a stack whose hitches differ, one matrix a vehicle.
+        First column 1, the others lever arms [m]; of a stack whose hitches differ, one matrix a vehicle.
     """
     count = len(vehicle.units)
     stack = np.broadcast_shapes(*(np.shape(hitch) for pair in vehicle.hitches for hitch in pair))
@@ -88,7 +88,7 @@ def coupled_velocities(
     Returns
     -------
     ndarray of complex, shape (..., n)
-        Longitudinal and lateral velocity as real and imaginary part, m/s.
+        Longitudinal and lateral velocity as real and imaginary part [m/s].
     """
     velocities = np.empty_like(heading)
     forward, sideways = lead

@@ -33,7 +33,7 @@ class LinearModel:
     model : str
         Name of the model in `MODELS`.
     speed : float
-        Longitudinal speed in m/s.
+        Longitudinal speed [m/s].
     state_matrix : ndarray, shape (2 n, 2 n)
     input_matrix : ndarray, shape (2 n,)
         Input matrix for the road-wheel steer angle [rad].
@@ -76,7 +76,7 @@ def linear_model(vehicle: Vehicle, speed: float | None = None, model: str = "con
     vehicle : Vehicle
         Or a stack of them.
     speed : float, optional
-        Longitudinal speed in m/s; the vehicle's own unless given. Of a stack, one for all or for each.
+        Longitudinal speed [m/s]; the vehicle's own unless given. Of a stack, one for all or for each.
     model : str
         One of `MODELS`.
 

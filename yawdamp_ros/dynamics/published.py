@@ -33,7 +33,7 @@ class PublishedMatrices:
     rates : ndarray, shape (6, 6)
         K of the report, at one speed.
     steering : ndarray, shape (6,)
-        B1 of the report, by road-wheel steer angle in rad.
+        B1 of the report, by road-wheel steer angle [rad].
     """
 
     mass: FloatArray
@@ -49,7 +49,7 @@ def published_matrices(vehicle: Vehicle, speed: float) -> PublishedMatrices:
     vehicle : Vehicle
         Vehicle whose positions become the distances a to j of Table 4.
     speed : float
-        Longitudinal speed u in m/s, positive.
+        Longitudinal speed u [m/s], positive.
 
     Returns
     -------
@@ -138,7 +138,7 @@ def state_space(vehicle: Vehicle, speed: float) -> tuple[FloatArray, FloatArray]
     vehicle : Vehicle
         Vehicle with the interlink's layout.
     speed : float
-        Longitudinal speed u in m/s, positive.
+        Longitudinal speed u [m/s], positive.
 
     Returns
     -------

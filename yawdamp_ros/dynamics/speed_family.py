@@ -29,7 +29,7 @@ class SpeedParts(NamedTuple):
 
     @classmethod
     def of(cls, values: Callable[[float], FloatArray]) -> "SpeedParts":
-        """Find the parts of numbers that are a function of the speed in m/s.
+        """Find the parts of numbers that are a function of the speed [m/s].
 
         The result is exact for numbers with a single part, because the speeds are powers of two.
         """
@@ -40,7 +40,7 @@ class SpeedParts(NamedTuple):
         return cls(low - inverse - speed, inverse * _BASE, speed / _BASE)
 
     def at(self, speed: float) -> FloatArray:
-        """Return the numbers at a speed in m/s."""
+        """Return the numbers at a speed [m/s]."""
         return self.constant + self.by_inverse * (1.0 / speed) + self.by_speed * speed
 
 
@@ -63,7 +63,7 @@ class StateMatrices(NamedTuple):
         return cls(SpeedParts._make(np.broadcast_to(part, shape) for part in parts))
 
     def at(self, speed: FloatArray | float) -> FloatArray:
-        """Matrices at one speed in m/s, or at one of each, shape (k, m, m)."""
+        """Matrices at one speed [m/s], or at one of each, shape (k, m, m)."""
         each = np.asarray(speed, dtype=np.float64)[..., np.newaxis, np.newaxis]
         constant, by_inverse, by_speed = self.parts
         return constant + by_inverse / each + by_speed * each

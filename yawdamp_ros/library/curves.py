@@ -23,7 +23,7 @@ class UnitCurves(NamedTuple):
     time : ndarray, shape (m,)
         Time [s].
     yaw, yaw_rate, lateral_acceleration, x, y : ndarray, shape (m,)
-        rad, rad/s, m/s^2, m.
+        Values of the unit [rad, rad/s, m/s^2, m].
 
     Examples
     --------

@@ -30,16 +30,16 @@ def simulate(  # noqa: PLR0913 - each is one setting of a run
     vehicle : Vehicle, str or Path
         A name or a path is loaded as `load_vehicle` does.
     steering : callable, array_like, shape (k,), or Drive
-        Road-wheel steer angle in rad: at a time in s, as the manoeuvres are, or of every step of the
+        Road-wheel steer angle [rad]: at a time [s], as the manoeuvres are, or of every step of the
         duration; or a drive, whose speed is followed, too, unless one is given.
     duration : float, optional
         Duration [s]; for a drive, its own unless given.
     step_size : float
-        Fixed step in s; the steering is held over each.
+        Fixed step [s]; the steering is held over each.
     sample_period : float, optional
-        Time between samples in s; the step unless given.
+        Time between samples [s]; the step unless given.
     speed : float, optional
-        Longitudinal speed in m/s; the drive's or the vehicle's own unless given.
+        Longitudinal speed [m/s]; the drive's or the vehicle's own unless given.
     model : str
         One of `yawdamp_ros.simulation.MODELS`.
 

@@ -56,13 +56,13 @@ class SteeringLog:
             raise LogError(self.source, f"it lasts {self.duration:g} s; expected at most {LONGEST_LOG:g} s")
 
     def __call__(self, time: float) -> float:
-        """Angle in rad in force at a time in s: that of the newest sample; 0 before the first."""
+        """Angle in force at a time [s], that of the newest sample [rad]; 0 before the first."""
         index = bisect_right(self.times, time) - 1
         return self.angles[index] if index >= 0 else 0.0
 
     @property
     def duration(self) -> float:
-        """Time of the last sample in s."""
+        """Time of the last sample [s]."""
         return self.times[-1]
 
     def divided(self, ratio: float) -> "SteeringLog":
@@ -70,7 +70,7 @@ class SteeringLog:
         return replace(self, angles=[angle / ratio for angle in self.angles])
 
     def window(self, start_offset: float, duration: float | None) -> "SteeringLog":
-        """The part from an offset on, for a duration, both in s; its time starts anew.
+        """The part from an offset on, for a duration, both [s]; its time starts anew.
 
         Raises
         ------

@@ -36,7 +36,7 @@ class Sine:
     cycles: float = 0.0
 
     def __call__(self, time: float) -> float:
-        """Steer angle in rad at a time in s."""
+        """Steer angle [rad] at a time [s]."""
         turns = (time - self.start) * self.frequency
         if turns < 0.0 or 0.0 < self.cycles < turns:
             return 0.0
@@ -92,7 +92,7 @@ class Step:
     start: float = 1.0
 
     def __call__(self, time: float) -> float:
-        """Steer angle in rad at a time in s."""
+        """Steer angle [rad] at a time [s]."""
         return self.amplitude if time >= self.start else 0.0
 
 
@@ -121,7 +121,7 @@ class Ramp:
     rise_time: float = 1.0
 
     def __call__(self, time: float) -> float:
-        """Steer angle in rad at a time in s."""
+        """Steer angle [rad] at a time [s]."""
         return self.amplitude * min(max((time - self.start) / self.rise_time, 0.0), 1.0)
 
 
@@ -150,7 +150,7 @@ class Pulse:
     width: float = 0.5
 
     def __call__(self, time: float) -> float:
-        """Steer angle in rad at a time in s."""
+        """Steer angle [rad] at a time [s]."""
         return self.amplitude if self.start <= time < self.start + self.width else 0.0
 
 
@@ -185,7 +185,7 @@ class Chirp:
     sweep_time: float = 15.0
 
     def __call__(self, time: float) -> float:
-        """Steer angle in rad at a time in s."""
+        """Steer angle [rad] at a time [s]."""
         elapsed = time - self.start
         if not 0.0 <= elapsed <= self.sweep_time:
             return 0.0

@@ -77,7 +77,7 @@ class ReplayNode(Node):
         Parameters
         ----------
         progress : callable
-            Told the time of each sample in s.
+            Function that receives the time of each sample [s].
         loop : bool
         """
         start = time.monotonic()

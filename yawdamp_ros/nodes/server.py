@@ -265,6 +265,6 @@ class Server:
 
 
 def ros_time(now: int) -> int | None:
-    """System time at a steady time of just now, in ns; None if the process was held up in between."""
+    """System time at a steady time of just now [ns]; None if the process was held up in between."""
     clock = time.time_ns()
     return clock if time.monotonic_ns() - now < SECOND // 1000 else None

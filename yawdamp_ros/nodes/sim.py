@@ -129,7 +129,7 @@ class Simulator:
         Parameters
         ----------
         clock : int or None
-            ROS time at which the sample is due in ns, which its stamp follows where there is no /clock.
+            ROS time at which the sample is due [ns], which its stamp follows where there is no /clock.
         """
         if clock is not None and not self.topics.clock:
             self._encoder.follow(clock)

@@ -112,7 +112,7 @@ def side_view(vehicle: Vehicle) -> dict[str, object]:
     Returns
     -------
     dict
-        Lengths in m, from the lead unit's centre of gravity, forward positive.
+        Lengths [m], from the lead unit's centre of gravity, forward positive.
 
     Examples
     --------
@@ -157,7 +157,7 @@ def turn_view(vehicle: Vehicle) -> dict[str, object] | None:
     Returns
     -------
     dict or None
-        Points in m.
+        Points [m].
 
     Examples
     --------

@@ -40,7 +40,7 @@ EVERY = 8
 """Samples of the lane change from one frame to the next."""
 
 MOST_ROLL = 0.35
-"""Largest mean roll of the curves of static roll, in rad."""
+"""Largest mean roll of the curves of static roll [rad]."""
 
 NOISE = 1e-9
 """Magnitude below which a value counts as rounding and is shown as 0."""

@@ -14,7 +14,7 @@ class Difference(NamedTuple):
     ----------
     topic : str
     time : float
-        Simulated time in s.
+        Simulated time [s].
     field : str
         Path of the value in the message.
     recorded, repeated : str

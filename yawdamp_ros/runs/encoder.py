@@ -125,7 +125,7 @@ class Encoder:
     settings : SimParameters
     grid : TimeGrid
     start_time : int
-        Stamp of step 0 in ns.
+        Stamp of step 0 [ns].
     twist : str
         One of `TWISTS`; the second only for runs that were recorded with it.
     surge : bool

@@ -64,7 +64,7 @@ class Frames:
 
 
 class _Layout:
-    """A message with a transform for every parent, child and place ahead of the parent in m."""
+    """A message with a transform for every parent, child and place ahead of the parent [m]."""
 
     def __init__(self, transforms: Sequence[tuple[str, str, float]]) -> None:
         data = bytearray(struct.pack("<I", len(transforms)))
@@ -85,7 +85,7 @@ class _Layout:
     def message(
         self, stamp: int, place: tuple[float, float] | None = None, halves: Sequence[complex] = ()
     ) -> bytes:
-        """Message with a stamp in ns, the place of the first transform, and half turns of the first ones."""
+        """Message with a stamp [ns], the place of the first transform, and half turns of the first ones."""
         data = bytearray(self._blank)
         for at in self._stamps:
             struct.pack_into("<iI", data, at, *divmod(stamp, SECOND))

@@ -63,7 +63,7 @@ def repeat_recording(path: Path, progress: Callable[[float], object] = lambda _:
     path : Path
         Run directory or its MCAP file.
     progress : callable, optional
-        Told the simulated time of every sample in s.
+        Function that receives the simulated time of every sample [s].
 
     Raises
     ------

@@ -136,7 +136,7 @@ class Resimulation:
         Yields
         ------
         float
-            Simulated time of each sample, in s.
+            Simulated time of each sample [s].
 
         Raises
         ------
@@ -202,7 +202,7 @@ class Resimulation:
         )
 
     def _instants(self) -> Iterator[tuple[int, int, list[AppliedInput], dict[str, bytes]]]:
-        """Step, jump of stamps in ns, inputs, and outputs by topic, of every recorded instant."""
+        """Step, jump of stamps [ns], inputs, and outputs by topic, of every recorded instant."""
         topics = frozenset(self._topics.values())
         messages = chain([self._first] if self._first is not None else [], self._messages)
         for log_time, group in groupby(messages, key=lambda message: message.log_time):

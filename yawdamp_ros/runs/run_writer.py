@@ -60,7 +60,7 @@ class Channel(NamedTuple):
 
 
 SerialisedMessage = tuple[str, int, bytes]
-"""Name of its channel, simulated time in ns, and the message in CDR."""
+"""Name of its channel, simulated time [ns], and the message in CDR."""
 
 
 class RunWriter:

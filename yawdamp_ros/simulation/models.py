@@ -42,7 +42,7 @@ def make_motion(
     model : str
         One of `MODELS`.
     speed : float or None
-        Longitudinal speed in m/s; None: the vehicle's own.
+        Longitudinal speed [m/s]; None for the vehicle's own.
     step_size : float
         Step size [s].
     start : Start, optional

@@ -31,6 +31,6 @@ STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyT
 
 
 def message_stamp(message: Any) -> int:  # noqa: ANN401 - made from a definition
-    """Stamp of a message in ns; 0 where it has none."""
+    """Stamp of a message [ns]; 0 where it has none."""
     stamp = getattr(getattr(message, "header", message), "stamp", None)
     return 0 if stamp is None else int(stamp.sec) * SECOND + int(stamp.nanosec)

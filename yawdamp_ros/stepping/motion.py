@@ -63,7 +63,7 @@ class Motion(Protocol):
 
     @property
     def steering_angle(self) -> float:
-        """Road-wheel steer angle in force from this instant on, rad."""
+        """Road-wheel steer angle in force from this instant on [rad]."""
 
     def begin(self, start: Start) -> None:
         """Set the start, to which a reset returns; allowed at step 0 before the first sample.
@@ -86,7 +86,7 @@ class Motion(Protocol):
         Parameters
         ----------
         angles : array_like, shape (k,)
-            Road-wheel steer angles in rad, each in force from the instant after its step on.
+            Road-wheel steer angles [rad], each in force from the instant after its step on.
         steps_per_sample : int, optional
             A divisor of k: sample every so many steps. The last instant alone unless given.
 

@@ -78,7 +78,7 @@ class Pacer:
         self._rate = rate
 
     def due(self, now: int) -> Due:
-        """Periods due at a steady time in ns; they count as simulated from now on."""
+        """Periods due at a steady time [ns]; they count as simulated from now on."""
         if self._paused:
             return Due(0, 0, 0.0)
         if not self._rate:

@@ -27,7 +27,7 @@ def pose(sample: Sample, unit: int, ahead: float = 0.0) -> tuple[complex, comple
     sample : Sample
     unit : int
     ahead : float
-        Distance of the point meant before the centre of gravity, m.
+        Distance of the point ahead of the centre of gravity [m].
 
     Returns
     -------

@@ -65,7 +65,7 @@ class Propagation:
 
     @property
     def steering_angle(self) -> float:
-        """Road-wheel steer angle in force from this instant on, rad."""
+        """Road-wheel steer angle in force from this instant on [rad]."""
         return float(self._angles[self._taken])
 
     @steering_angle.setter

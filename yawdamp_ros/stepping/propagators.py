@@ -39,7 +39,7 @@ class Propagators:
         self._norms = [float(np.abs(self._rates(part)).sum(axis=0).max()) for part in self._parts]
 
     def at(self, speed: float) -> Propagator:
-        """Matrices at a speed in m/s.
+        """Matrices at a speed [m/s].
 
         Raises
         ------
@@ -74,7 +74,7 @@ class Propagators:
 
 
 def propagator(model: LinearModel, step_size: float) -> Propagator:
-    """Matrices of a model for steps of a size in s, as `Propagators` has them."""
+    """Matrices of a model for steps of a size [s], as `Propagators` has them."""
     return Propagators(model, step_size).at(model.speed)
 
 

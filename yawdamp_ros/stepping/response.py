@@ -17,7 +17,7 @@ from yawdamp_ros.stepping.time_grid import TimeGrid
 from yawdamp_ros.stepping.yaw import LARGEST_YAW
 
 Steering = Callable[[float], float]
-"""Road-wheel steer angle in rad at a time in s."""
+"""Road-wheel steer angle [rad] at a time [s]."""
 SAMPLES_AT_ONCE = 1000
 """Instants that are computed at once."""
 
@@ -34,11 +34,11 @@ class Response:
     steering_angle : ndarray, shape (m,)
         Road-wheel steer angle, in force from that instant on [rad].
     yaw, yaw_rate, lateral_acceleration : ndarray, shape (m, n)
-        rad, rad/s, m/s^2.
+        Yaw [rad], yaw rate [rad/s] and lateral acceleration [m/s^2].
     articulation : ndarray, shape (m, n - 1)
-        rad.
+        Articulation angles [rad].
     x, y : ndarray, shape (m, n)
-        Centres of gravity in the ground frame, m.
+        Centres of gravity in the ground frame [m].
     extra : mapping of str to ndarray, shape (m, n), (m, n - 1) or (m, 1)
         Quantities that not every motion has, as `Sample.extra`.
     events : tuple of Event
@@ -106,7 +106,7 @@ def sample_run(motion: Motion, grid: TimeGrid, steering: Steering, duration: flo
         At step 0.
     grid : TimeGrid
     steering : callable
-        Steer angle in rad at a time in s.
+        Steer angle [rad] at a time [s].
     duration : float
         Duration [s]; the last sample is at the last sample period that fits.
 

@@ -21,7 +21,7 @@ class AppliedInput(NamedTuple):
     name : str
         One of the motion's `input_names`, such as ``steering``.
     value : float
-        Road-wheel steer angle in rad, speed in m/s, or 0 for a reset.
+        Road-wheel steer angle [rad], speed [m/s], or 0 for a reset.
 
     Examples
     --------
@@ -99,9 +99,9 @@ class Sample(NamedTuple):
     step : ndarray, shape ()
         Steps since the start; with the step size, the time.
     steering_angle : ndarray, shape ()
-        Road-wheel steer angle in force from this instant on, rad.
+        Road-wheel steer angle in force from this instant on [rad].
     x, y : ndarray, shape (n,)
-        Centres of gravity in the ground frame, m.
+        Centres of gravity in the ground frame [m].
     yaw, yaw_rate : ndarray, shape (n,)
         rad and rad/s; yaw is not wrapped.
     heading : ndarray of complex, shape (n,)

@@ -31,7 +31,7 @@ class Stamps:
         return self._offset + step * self._step_ns
 
     def at(self, stamp: int) -> int:
-        """Step of a stamp in ns."""
+        """Step of a stamp [ns]."""
         return (stamp - self._offset) // self._step_ns
 
     def jump(self, nanoseconds: int) -> None:

@@ -33,7 +33,7 @@ class SteeringActuator:
         self._angle = 0.0
 
     def follow(self, command: float) -> float:
-        """Road-wheel angle in rad, one step after the last one, on the way to a command in rad."""
+        """Road-wheel angle [rad], one step after the last one, on the way to a command [rad]."""
         change = command - self._demand
         if abs(change) > self._largest_change:
             self._demand += math.copysign(self._largest_change, change)

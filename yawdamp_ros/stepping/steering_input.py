@@ -21,9 +21,9 @@ class SteeringInput:
     timeout_steps : int
         Steps of silence after which `zero_on_timeout` counts.
     zero_on_timeout : bool
-        Whether silence returns the wheels to straight ahead; else the last command is held.
+        Whether a timeout returns the wheels to straight ahead; else the last command is held.
     max_age : float
-        Farthest that a stamp may be from now, into the past or the future, in s; 0: any.
+        Largest difference of a stamp from the present, past or future [s]; 0 for no limit.
 
     Attributes
     ----------

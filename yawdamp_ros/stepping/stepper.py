@@ -95,7 +95,7 @@ class Stepper:
 
     @property
     def steering_angle(self) -> float:
-        """Road-wheel steer angle held over the next step, rad."""
+        """Road-wheel steer angle held over the next step [rad]."""
         return self._motion.steering_angle
 
     def steer(self, angle: float) -> None:
@@ -207,7 +207,7 @@ class Stepper:
         Parameters
         ----------
         angles : array_like, shape (k,)
-            Road-wheel steer angles in rad, finite, each in force from the instant after its step on.
+            Road-wheel steer angles [rad], finite, each in force from the instant after its step on.
         steps_per_sample : int, optional
             A divisor of k: sample every so many steps. The last instant alone unless given.
         tell_inputs : bool

@@ -17,7 +17,7 @@ LONGEST_TIME = 1e9
 
 
 def nanoseconds(seconds: float) -> int:
-    """Whole nanoseconds nearest to a time in s."""
+    """Whole nanoseconds nearest to a time [s]."""
     return round(seconds * SECOND)
 
 
@@ -30,7 +30,7 @@ class TimeGrid:
     Attributes
     ----------
     step_ns : int
-        Length of a step in ns.
+        Length of a step [ns].
     steps_per_sample : int
         Steps from one published sample to the next.
 
@@ -47,7 +47,7 @@ class TimeGrid:
 
     @classmethod
     def of(cls, step_size: float, sample_period: float) -> "TimeGrid":
-        """Grid of a step size and a sample period, both in s.
+        """Grid of a step size and a sample period, both [s].
 
         Raises
         ------
@@ -74,12 +74,12 @@ class TimeGrid:
 
     @property
     def step_size(self) -> float:
-        """Length of a step in s."""
+        """Length of a step [s]."""
         return self.step_ns / SECOND
 
     @property
     def period_ns(self) -> int:
-        """Time from one sample to the next in ns."""
+        """Time from one sample to the next [ns]."""
         return self.step_ns * self.steps_per_sample
 
     @overload
@@ -93,7 +93,7 @@ class TimeGrid:
         return step * self.step_ns / SECOND
 
     def samples_in(self, duration: float) -> int:
-        """Whole sample periods in a duration given in s.
+        """Whole sample periods in a duration given [s].
 
         Raises
         ------

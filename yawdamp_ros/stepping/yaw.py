@@ -13,7 +13,7 @@ class YawParts(NamedTuple):
     Attributes
     ----------
     value, remainder : float
-        A number, and what its rounding left over, rad.
+        Number, and the remainder of its rounding [rad].
     wrapped : float
         Value without whole turns [rad].
     """
@@ -44,7 +44,7 @@ class Yaw:
         self.direction = wrapped + remainder
 
     def turn(self, angle: float) -> None:
-        """Add an angle in rad."""
+        """Add an angle [rad]."""
         value, remainder, _ = self.parts
         change = remainder + angle
         total = value + change

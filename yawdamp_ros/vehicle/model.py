@@ -97,7 +97,7 @@ class Unit:
         Inertia about the vertical axis through the centre of gravity [kg m^2].
     axles : tuple of Axle
     front_hitch, rear_hitch : float or None
-        Distance from the centre of gravity in m, forward positive; None where there is none.
+        Distance from the centre of gravity [m], forward positive; None where there is none.
     cg_height, roll_axis_height : float or None
         Above the road [m].
     roll_inertia : float or None
@@ -199,7 +199,7 @@ class Vehicle:
 
     @property
     def hitches(self) -> tuple[tuple[float, float], ...]:
-        """Each coupling as (rear hitch of the towing unit, front hitch of the towed unit), in m.
+        """Each coupling as (rear hitch of the towing unit, front hitch of the towed unit) [m].
 
         Raises
         ------

@@ -12,7 +12,7 @@ GROUND_FRAME = "odom"
 
 
 def extent(unit: Unit) -> tuple[float, float]:
-    """Rearmost and foremost axle or hitch of a unit, in m from its centre of gravity."""
+    """Rearmost and foremost axle or hitch of a unit [m] from its centre of gravity."""
     hitches = [hitch for hitch in (unit.front_hitch, unit.rear_hitch) if hitch is not None]
     positions = [*(axle.position for axle in unit.axles), *hitches]
     return min(positions), max(positions)

@@ -18,7 +18,7 @@ def fancher_stiffness(load: float) -> float:
     Parameters
     ----------
     load : float
-        Vertical load of the tyre in N. The formula peaks at 15000 lbf, 66.7 kN.
+        Vertical load of the tyre [N]. The formula peaks at 15000 lbf, 66.7 kN.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def printed_stiffness(load: float) -> float:
     Parameters
     ----------
     load : float
-        Vertical load of each tyre in N.
+        Vertical load of each tyre [N].
 
     Returns
     -------
