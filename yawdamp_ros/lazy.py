@@ -12,7 +12,7 @@ def load_on_use(
     Parameters
     ----------
     package : str
-        Its ``__name__``.
+        Name of the package, its ``__name__``.
     modules : mapping of str to sequence of str
         Names by the module that holds them.
     rooms : sequence of str

@@ -21,7 +21,7 @@ class Answers:
     reasons : mapping of int to str
         Reasons for missing values by index of the vehicle, where one is needed.
     spans : ndarray, shape (k, 2), optional
-        Lowest and highest value that the measure could be read as, where it is ambiguous.
+        Lowest and highest reading of an ambiguous value.
     """
 
     values: FloatArray

@@ -125,7 +125,7 @@ class Assessment:
     model : str
     scheme : Scheme
     level : str or None
-        Level that was asked for.
+        Requested level.
     findings : tuple of Finding
 
     Examples

@@ -206,7 +206,7 @@ def tracking_ability_on_a_straight_path(vehicle: Vehicle, speed: float) -> float
 def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float:
     """Width that the bodies sweep in a stop on a road whose sides differ in friction [m].
 
-    A driver keeps the steered axle on a straight line while all brakes are asked for 5 m/s^2; friction is 0.5
+    A driver keeps the steered axle on a straight line; the demand on all brakes is 5 m/s^2. Friction is 0.5
     on the left and 0.25 on the right.
 
     Parameters

@@ -73,7 +73,7 @@ def steer_axle_position(vehicle: Vehicle) -> float:
     Returns
     -------
     float
-        From the centre of gravity of the unit, forward positive [m].
+        Position from the centre of gravity of the unit, forward positive [m].
 
     Examples
     --------

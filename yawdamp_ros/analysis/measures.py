@@ -39,7 +39,7 @@ class Measure:
     name : str
         Name in tables, JSON and CSV.
     unit : str
-        Empty for a ratio.
+        Unit of the value; empty for a ratio.
     definition : str
         Definition of the measure, and its author.
     answers : callable
@@ -73,7 +73,7 @@ class Measure:
         return self.answers(stack_of(model)).only()
 
     def speed_for(self, vehicle: Vehicle, asked: float | None = None) -> float:
-        """Speed at which a vehicle, or each of a stack, is judged [m/s]: asked for, standard, or own."""
+        """Speed at which a vehicle, or each of a stack, is judged [m/s]: requested, standard, or own."""
         if asked is not None:
             return asked
         return vehicle.speed if self.speed is None else self.speed
@@ -113,7 +113,7 @@ class VehicleMeasure:
     caveat: str = ""
 
     def speed_for(self, vehicle: Vehicle, asked: float | None = None) -> float:
-        """Speed at which a vehicle is judged [m/s]: asked for, standard, or own."""
+        """Speed at which a vehicle is judged [m/s]: requested, standard, or own."""
         if asked is not None and not self.fixed:
             return asked
         return vehicle.speed if self.speed is None else self.speed

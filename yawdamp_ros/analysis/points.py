@@ -11,7 +11,7 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 
 
 class Points(Protocol):
-    """Points of d coordinates: an array, or what makes a part of one when it is asked for."""
+    """Points of d coordinates: an array, or an object that makes parts of one on request."""
 
     def __len__(self) -> int:
         """Return the number of points."""

@@ -41,7 +41,7 @@ class Severity(NamedTuple):
     roll, load_transfer_ratio : ndarray, shape (m, n)
         Roll [rad].
     limit : str
-        Reason that no harder turn exists; empty if the last one is the one asked for.
+        Reason that no harder turn exists; empty if the last one is the requested one.
     """
 
     vehicle: Vehicle

@@ -266,7 +266,7 @@ def _extrema(values: FloatArray) -> FloatArray:
 
 
 def _least(ratios: FloatArray, chosen: BoolArray) -> FloatArray:
-    """Lowest of those chosen, of each of k vehicles; NaN where none is."""
+    """Lowest chosen value of each of k vehicles; NaN without one."""
     found = np.where(chosen, ratios, np.inf).min(axis=1)
     return np.where(np.isinf(found), np.nan, found)
 

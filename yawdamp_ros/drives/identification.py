@@ -77,7 +77,7 @@ class Identification:
     Attributes
     ----------
     estimates : tuple of Estimate
-        First those asked for, then ``offset of <output>`` of every sensor.
+        Requested estimates, then ``offset of <output>`` of every sensor.
     correlations : ndarray, shape (p, p)
         Correlations between the estimates.
     fitted, checked : list of ChannelComparison

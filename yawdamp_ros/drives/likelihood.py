@@ -119,7 +119,7 @@ class _Problem:
         self._spreads = spreads
         self._series = series
         self._groups = _together(series)
-        # Results of the last place: the same place is asked for more than once.
+        # Results of the last place: the same place is requested more than once.
         self._known: tuple[FloatArray, list[FloatArray]] | None = None
         self._slopes: tuple[FloatArray, list[FloatArray]] | None = None
 

@@ -32,7 +32,7 @@ class Parameter:
         A factor of `FACTORS`, one of `STEERING`, or a key of the vehicle file such as `FRICTION` or
         ``units.1.load.0.position``.
     unit : str
-        Empty for factors and ratios.
+        Unit of the value; empty for factors and ratios.
     start : float
         Value before the fit.
     scale : float

@@ -48,7 +48,7 @@ def equations_of_motion(vehicle: Vehicle) -> EquationsOfMotion:
     """Assemble the equations of motion by Lagrange's method.
 
     An axle at x on unit k slips sideways at ``s = y_k' + x psi_k' - u psi_k``; its slip angle is s/u,
-    less delta where it is steered, and its force is minus the cornering stiffness times that.
+    minus delta if it is steered, and its force is minus the cornering stiffness times that.
 
     Parameters
     ----------

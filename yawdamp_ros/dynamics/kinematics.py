@@ -45,7 +45,7 @@ def coupled_positions(
     Parameters
     ----------
     hitches : sequence of (float, float)
-        As `Vehicle.hitches`.
+        Hitches, as in `Vehicle.hitches`.
     lead : ndarray of complex, shape (...)
         ``x + i y`` of the lead unit's centre of gravity in the ground frame, m.
     heading : ndarray of complex, shape (..., n)
@@ -77,7 +77,7 @@ def coupled_velocities(
     Parameters
     ----------
     hitches : sequence of (float, float)
-        As `Vehicle.hitches`.
+        Hitches, as in `Vehicle.hitches`.
     lead : (ndarray, ndarray)
         Longitudinal and lateral velocity of the lead unit, m/s, shape (...).
     yaw_rate : ndarray, shape (..., n)

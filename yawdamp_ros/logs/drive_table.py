@@ -44,7 +44,7 @@ def measured_columns(
     Raises
     ------
     LogError
-        If a column that was asked for is not there.
+        If a requested column is missing.
     """
     columns: dict[str, Column] = {}
     for name in header:

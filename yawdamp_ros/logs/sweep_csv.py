@@ -24,18 +24,18 @@ class SweepCsv:
     Parameters
     ----------
     path : Path
-        Gone on from where it holds the beginning of the same sweep, else written anew.
+        File with the beginning of the same sweep, which is continued, or a new file.
     definition : mapping
         Definition of the sweep, of types that JSON can hold.
     points : Points
-        The k points, of d coordinates each.
+        Points of the sweep, k of d coordinates each.
     columns : sequence of str
         Names of the coordinates of a point, then of the answers.
 
     Attributes
     ----------
     answers : ndarray, shape (m, a)
-        Read from the file: of the first m points.
+        Answers of the first m points, read from the file.
 
     Raises
     ------

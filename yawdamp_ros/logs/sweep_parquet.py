@@ -27,14 +27,14 @@ class SweepParquet:
     Parameters
     ----------
     path : Path
-        Gone on from where it holds the beginning of the same sweep, else made anew.
+        Directory with the beginning of the same sweep, which is continued, or a new directory.
     definition, points, columns
-        As `SweepCsv` has them.
+        As for `SweepCsv`.
 
     Attributes
     ----------
     answers : ndarray, shape (m, a)
-        Read from the parts: of the first m points.
+        Answers of the first m points, read from the parts.
 
     Raises
     ------

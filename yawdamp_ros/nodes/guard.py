@@ -15,7 +15,7 @@ WARNING_PERIOD = 5.0
 
 
 class Guard:
-    """Wraps callbacks, so that none of them ends the node.
+    """Wraps callbacks, so that no error in one ends the node.
 
     Parameters
     ----------

@@ -90,7 +90,7 @@ def changed(settings: SimParameters, parameters: Iterable[Parameter]) -> SimPara
     Raises
     ------
     NodeError
-        If one of them, or all of them together, cannot be; then none of them counts.
+        If one of them, or their combination, is invalid; then none of them is applied.
     """
     wanted = {parameter.name: parameter.value for parameter in parameters if parameter.name in PARAMETERS}
     for name, value in wanted.items():

@@ -68,7 +68,7 @@ def cache_directory() -> Path | None:
     Returns
     -------
     Path or None
-        None where neither can be written; that is logged, and every process compiles anew.
+        None if neither can be written; this is logged, and every process compiles again.
     """
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()[:16]

@@ -28,7 +28,7 @@ class SteadyTurn:
     state : ndarray, shape (m,)
         State at the origin, along X.
     inputs : ndarray
-        Inputs that hold the turn: the steer angle, and the speed that the controller is asked for.
+        Inputs that hold the turn: the steer angle, and the speed demanded of the controller.
     outputs : Outputs
         Outputs of this one instant.
 

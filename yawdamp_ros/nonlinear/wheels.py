@@ -78,7 +78,7 @@ MOST_BRAKE = 2.0
 
 @compiled
 def driving_force(state: FloatArray, inputs: FloatArray, p: Parameters) -> float:
-    """Force that the driven axles are asked for [N]; negative in reverse and from the speed controller."""
+    """Force demanded of the driven axles [N]; negative in reverse and from the speed controller."""
     unit_table, scalars = p.units, p.scalars
     demand = inputs[GEAR] * max(inputs[ACCELERATION], 0.0)
     if not math.isnan(inputs[SPEED]):

@@ -54,7 +54,7 @@ class Heading(NamedTuple):
     Attributes
     ----------
     project, author, date : str
-        Empty without a remark.
+        Project, author and date; empty ones are left out.
 
     Examples
     --------

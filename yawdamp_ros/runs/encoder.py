@@ -140,7 +140,7 @@ class Encoder:
     types : dict of str to str
         Message type by relative topic, in the order of `Encoded.names`.
     sinks : list of EncodedSink
-        Told of every sample in this order.
+        Receivers of every sample, in this order.
     """
 
     def __init__(  # noqa: PLR0913 - the last two are of early recordings alone

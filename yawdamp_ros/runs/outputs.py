@@ -44,7 +44,7 @@ class Output(NamedTuple):
     type_name : str
         Message type; empty if the output is no topic.
     fields : mapping of str to str
-        Quantity by path of the double in the message that holds it; ``{joint}`` stands for every joint.
+        Quantity by the path of its double in the message; ``{joint}`` is every joint.
     held : bool
         Whether a value holds until the next; else it changes towards it.
     value : callable, optional

@@ -22,7 +22,7 @@ class ResponseCsv:
     Parameters
     ----------
     path : Path
-        Written anew.
+        File to write; an existing one is overwritten.
     motion : Motion
         Motion that the samples come from.
     grid : TimeGrid

@@ -31,7 +31,7 @@ def read_response_csv(path: Path) -> Response:
     Returns
     -------
     Response
-        With x and y not a number where the file holds no paths.
+        Response of the file; x and y are NaN if the file holds no paths.
 
     Raises
     ------

@@ -205,7 +205,7 @@ class Commands:
         return verdict
 
     def _command_source(self, settings: SimParameters, log: Signal | None) -> Callable[[int], float]:
-        """Road-wheel angle in rad asked for from each step on."""
+        """Road-wheel angle demanded from each step on [rad]."""
         steering, seconds = self.steering_input, self._grid.seconds
         if settings.manoeuvre != "none":
             manoeuvre = make_manoeuvre(settings.manoeuvre, settings.manoeuvre_settings)

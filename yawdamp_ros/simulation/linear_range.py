@@ -17,7 +17,7 @@ class LinearRange:
     levels : Limits
         Limits of the linear range; they may be replaced during a run.
     tell : callable, optional
-        Told of the first instant past a level.
+        Function that receives the first instant past a level.
 
     Attributes
     ----------

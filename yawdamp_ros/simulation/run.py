@@ -37,10 +37,10 @@ class Source(Protocol):
         """Inputs other than steering that act from one of these steps on, in order, each given once."""
 
     def steering(self, steps: range) -> Sequence[float]:
-        """Road-wheel steer angle in rad from each of these steps on, each asked for once."""
+        """Road-wheel steer angle from each of these steps on, each requested once [rad]."""
 
     def received(self) -> tuple[Command, ...]:
-        """Commands taken since the last time they were asked for."""
+        """Commands taken since the last call."""
 
 
 class Run:

@@ -297,7 +297,7 @@ class SimParameters:
 
     @property
     def clock(self) -> bool:
-        """True if simulated time is published on /clock; by default where it is not real time."""
+        """True if simulated time is published on /clock; by default if it is not real time."""
         return self.real_time_factor != 1.0 if self.publish_clock is None else self.publish_clock
 
     @property

@@ -103,7 +103,7 @@ def sample_run(motion: Motion, grid: TimeGrid, steering: Steering, duration: flo
     Parameters
     ----------
     motion : Motion
-        At step 0.
+        Motion at step 0.
     grid : TimeGrid
     steering : callable
         Steer angle [rad] at a time [s].

@@ -151,7 +151,7 @@ class Sample(NamedTuple):
     commands: tuple[Command, ...] = ()
 
     def before(self, instant: int) -> "Sample":
-        """Return the sample up to one of its instants, with the inputs and events until then."""
+        """Return the sample of the instants before a given one, with the inputs and events until then."""
         last = int(self.step[instant - 1]) if instant else int(self.step[0]) - 1
         cut = {
             name: value[:instant]

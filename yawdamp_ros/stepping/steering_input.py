@@ -19,7 +19,7 @@ class SteeringInput:
     limit : float
         Largest road-wheel angle in rad; a command past it is clamped and counted.
     timeout_steps : int
-        Steps of silence after which `zero_on_timeout` counts.
+        Steps without a command after which `zero_on_timeout` applies.
     zero_on_timeout : bool
         Whether a timeout returns the wheels to straight ahead; else the last command is held.
     max_age : float

@@ -240,7 +240,7 @@ def value_at(vehicle: VehicleSource, key: str, source: str = "vehicle") -> float
     Raises
     ------
     VehicleError
-        If there is no number there.
+        If the key holds no number.
     """
     data = canonical(overridden_data(vehicle.text, source, vehicle.overrides), source)
     try:
