@@ -98,7 +98,9 @@ def _off(path: np.ndarray, begun: int) -> float:
     """Distance from the circle through the path of the last two seconds before an instant [m]."""
     x, y = path[begun - 200 : begun].T
     # x^2 + y^2 = 2 a x + 2 b y + c, the circle's centre (a, b).
-    (a, b, c), *_ = np.linalg.lstsq(np.column_stack([2.0 * x, 2.0 * y, np.ones_like(x)]), x * x + y * y)
+    (a, b, c), *_ = np.linalg.lstsq(
+        np.column_stack([2.0 * x, 2.0 * y, np.ones_like(x)]), x * x + y * y, rcond=None
+    )
     radius = np.sqrt(c + a * a + b * b)
     return float(np.abs(np.hypot(path[begun:, 0] - a, path[begun:, 1] - b) - radius).max())
 

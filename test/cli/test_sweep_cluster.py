@@ -4,8 +4,9 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import psutil
@@ -13,13 +14,20 @@ import pytest
 
 from yawdamp_ros.cli import run
 
-distributed = pytest.importorskip("distributed")
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from distributed import LocalCluster
+
+pytestmark = pytest.mark.skipif(find_spec("distributed") is None, reason="needs distributed, an extra")
 
 OPTIONS = ["--range", "units.1.mass=5000:30000", "--measure", "critical_speed"]
 
 
 @pytest.fixture(scope="module")
-def cluster() -> Iterator[distributed.LocalCluster]:
+def cluster() -> "Iterator[LocalCluster]":
+    import distributed  # noqa: PLC0415 - an extra
+
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, protocol="tcp://", host="127.0.0.1", dashboard_address=None
     ) as cluster:
@@ -41,7 +49,7 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> np.ndarray:
     return rows(output)
 
 
-def begun(output: Path, cluster: distributed.LocalCluster) -> subprocess.Popen[str]:
+def begun(output: Path, cluster: "LocalCluster") -> subprocess.Popen[str]:
     command = [sys.executable, "-m", "yawdamp_ros", *sweep(2500, output)]
     process = subprocess.Popen(
         [*command, "--scheduler", cluster.scheduler_address],
@@ -56,7 +64,7 @@ def begun(output: Path, cluster: distributed.LocalCluster) -> subprocess.Popen[s
 
 
 def test_an_interrupted_sweep_goes_on_and_gives_what_one_process_gives(
-    cluster: distributed.LocalCluster, here: np.ndarray, tmp_path: Path
+    cluster: "LocalCluster", here: np.ndarray, tmp_path: Path
 ) -> None:
     output = tmp_path / "x.csv"
     with begun(output, cluster) as process:
@@ -70,9 +78,7 @@ def test_an_interrupted_sweep_goes_on_and_gives_what_one_process_gives(
     np.testing.assert_allclose(rows(output), here, rtol=1e-9)
 
 
-def test_a_killed_worker_is_survived(
-    cluster: distributed.LocalCluster, here: np.ndarray, tmp_path: Path
-) -> None:
+def test_a_killed_worker_is_survived(cluster: "LocalCluster", here: np.ndarray, tmp_path: Path) -> None:
     output = tmp_path / "x.csv"
     with begun(output, cluster) as process:
         psutil.Process(next(iter(cluster.workers.values())).pid).kill()

@@ -1,5 +1,6 @@
 """Sweeps as Parquet: what others read of them, and that an interrupted one goes on."""
 
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 
 from yawdamp_ros.cli import run
 
-pytest.importorskip("pyarrow")
+pytestmark = pytest.mark.skipif(find_spec("pyarrow") is None, reason="needs pyarrow, an extra")
 
 SWEEP = ["sweep", "--random", "1100", "--range", "units.1.mass=5000:30000", "--measure", "steady_offtracking"]
 

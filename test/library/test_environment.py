@@ -1,6 +1,7 @@
 """The Gymnasium environment: its own checker passes, and an episode is the node's run."""
 
 import warnings
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -8,9 +9,12 @@ import pytest
 from yawdamp_ros.simulation import SimParameters, SimulationError, simulate
 from yawdamp_ros.stepping import Sample
 
-check_env = pytest.importorskip("gymnasium.utils.env_checker").check_env
-environment = pytest.importorskip("yawdamp_ros.library.environment")
-RigEnv, vector_env = environment.RigEnv, environment.vector_env
+if find_spec("gymnasium"):
+    from gymnasium.utils.env_checker import check_env
+
+    from yawdamp_ros.library.environment import RigEnv, vector_env
+
+pytestmark = pytest.mark.skipif(find_spec("gymnasium") is None, reason="needs gymnasium, an extra")
 
 DRIVEN = SimParameters(model="nonlinear", longitudinal_source="acceleration", speed=15.0, duration=1.0)
 

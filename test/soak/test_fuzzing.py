@@ -4,14 +4,17 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from faults.targets import CORPUS, TARGETS
 
-pytest.importorskip("atheris", reason="it has no wheels for this Python")
-pytestmark = pytest.mark.timeout(3600)
+pytestmark = [
+    pytest.mark.timeout(3600),
+    pytest.mark.skipif(find_spec("atheris") is None, reason="it has no wheels for this Python"),
+]
 
 SECONDS = 60
 FUZZ = Path(__file__).parents[1] / "faults" / "fuzz.py"
