@@ -1,5 +1,6 @@
 """Libraries that only some commands need."""
 
+from importlib import import_module
 from importlib.util import find_spec
 from types import MappingProxyType
 from typing import NamedTuple
@@ -45,7 +46,7 @@ def require(*modules: str) -> None:
     Raises
     ------
     UsageError
-        If one is not installed; the message says how to install it.
+        If one is not installed, which the message says how to do, or does not fit the others.
     """
     for module in modules:
         if find_spec(module) is None:
@@ -53,3 +54,8 @@ def require(*modules: str) -> None:
             apt = f"sudo apt install {package}, or " if package else ""
             message = f"needs {module}, which is not installed: {apt}pip install 'yawdamp_ros[{extra}]'"
             raise UsageError(message)
+        try:
+            import_module(module)
+        except ImportError as error:
+            message = f"needs {module}, which cannot be imported: {str(error).partition(chr(10))[0]}"
+            raise UsageError(message) from error
