@@ -67,7 +67,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     subprocess.run(["umount", "--lazy", str(place)], check=True)
 
 
-# Known defect: of 200 samples heard between both files 133 were counted, with three busy loops beside the node.
+# Known defect: of 194 samples heard between both files 133 were counted, beside three busy loops.
 @pytest.mark.xfail(
     strict=False, reason="on a busy machine not every message that a full disk loses is counted"
 )
