@@ -16,7 +16,7 @@ from yawdamp_ros.vehicle import load_vehicle, vehicle_text
 
 VEHICLES = 100
 STEPS = 12_000
-"""Of a lane change of 12 s at 1 kHz."""
+"""Steps of a lane change of 12 s at 1 kHz."""
 PRODUCTS = 20_000
 CORES = 2
 

@@ -1,4 +1,4 @@
-"""What runs within one process, timed by pyperf, which repeats each in several processes."""
+"""Benchmarks within one process, timed by pyperf, which repeats each in several processes."""
 
 import itertools
 from collections.abc import Callable

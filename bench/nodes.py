@@ -79,7 +79,7 @@ def processor_time(peer: Peer, command: Sequence[str], directory: Path, seconds:
 
 
 def bare_keeps_up(rate: float, directory: Path) -> bool:
-    """Whether the bare node fires at every period over ten seconds."""
+    """Return whether the bare node fires at every period over ten seconds."""
     with running([*BARE, str(rate)], directory) as process:
         time.sleep(SETTLING + RATE_SECONDS)
     output, _ = process.communicate()
@@ -87,7 +87,7 @@ def bare_keeps_up(rate: float, directory: Path) -> bool:
 
 
 def sim_keeps_up(rate: float, directory: Path) -> bool:
-    """Whether the simulator gives up no step over ten seconds."""
+    """Return whether the simulator drops no step over ten seconds."""
     options = ["--publish-rate", str(rate), "--step-size", str(1.0 / rate), "--duration", str(RATE_SECONDS)]
     command = [*SIM, "--no-record", *options]
     done = subprocess.run(command, cwd=directory, capture_output=True, text=True, check=True)  # noqa: S603

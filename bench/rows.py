@@ -1,4 +1,4 @@
-"""What a benchmark says: one thing measured against another in the same run."""
+"""Results of benchmarks: one thing measured against another in the same run."""
 
 import platform
 import statistics
@@ -42,7 +42,7 @@ def by_turns(
 
 
 def holds(row: Row) -> str:
-    """Whether a ratio is as wanted; empty where nothing is."""
+    """Return whether a ratio keeps its limit; empty where there is none."""
     if not row.wanted:
         return ""
     sign, limit = row.wanted.split()
@@ -62,7 +62,7 @@ def figure(values: Sequence[float], unit: str) -> str:
 
 
 def machine() -> str:
-    """What all this ran on."""
+    """Name the machine and its versions."""
     models = [
         line.split(":")[1].strip()
         for line in Path("/proc/cpuinfo").read_text().splitlines()

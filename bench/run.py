@@ -29,7 +29,7 @@ ROUNDS = 5
 
 
 def in_process(directory: Path) -> list[Row]:
-    """What pyperf measures, in rounds: whatever else the machine does for a while then slows all of it."""
+    """Run pyperf's benchmarks in rounds, so that other load on the machine slows all of them alike."""
     # One core for everybody: nothing here may win by a second one.
     threads = "OPENBLAS_NUM_THREADS"
     times: dict[str, list[float]] = {}

@@ -1,4 +1,4 @@
-"""How long commands take to start, beside Python that imports NumPy."""
+"""Start of commands, beside Python that imports NumPy."""
 
 import subprocess
 import sys
@@ -11,8 +11,8 @@ from rows import Row, by_turns
 TIMES = 7
 NUMPY = [sys.executable, "-c", "import numpy"]
 YAWDAMP = [sys.executable, "-m", "yawdamp_ros"]
-OF_HELP, OF_COMMANDS = "<= 1.7", "<= 6.7"
-"""Of what NumPy takes, some 0.15 s of an idle machine: 0.25 s and 1 s."""
+HELP_LIMIT, COMMAND_LIMIT = "<= 1.7", "<= 6.7"
+"""Limits of help and of commands, as multiples of NumPy's import: 0.25 s and 1 s at its 0.15 s."""
 
 
 def of_commands(directory: Path) -> list[Row]:
@@ -22,13 +22,13 @@ def of_commands(directory: Path) -> list[Row]:
     simulate = [*YAWDAMP, "simulate", "--log", str(log), "--output"]
     _took([*simulate, str(run)])
     commands = {
-        "--help": ([*YAWDAMP, "--help"], OF_HELP),
-        "assess --help": ([*YAWDAMP, "assess", "--help"], OF_COMMANDS),
-        "show": ([*YAWDAMP, "show"], OF_COMMANDS),
-        "assess": ([*YAWDAMP, "assess"], OF_COMMANDS),
-        "simulate": ([*simulate, str(directory / "run.csv")], OF_COMMANDS),
-        "resimulate": ([*YAWDAMP, "resimulate", str(run)], OF_COMMANDS),
-        "plot": ([*YAWDAMP, "plot", str(run), "--output", str(directory / "run.png")], OF_COMMANDS),
+        "--help": ([*YAWDAMP, "--help"], HELP_LIMIT),
+        "assess --help": ([*YAWDAMP, "assess", "--help"], COMMAND_LIMIT),
+        "show": ([*YAWDAMP, "show"], COMMAND_LIMIT),
+        "assess": ([*YAWDAMP, "assess"], COMMAND_LIMIT),
+        "simulate": ([*simulate, str(directory / "run.csv")], COMMAND_LIMIT),
+        "resimulate": ([*YAWDAMP, "resimulate", str(run)], COMMAND_LIMIT),
+        "plot": ([*YAWDAMP, "plot", str(run), "--output", str(directory / "run.png")], COMMAND_LIMIT),
     }
 
     def start(command: Sequence[str]) -> Callable[[], float]:

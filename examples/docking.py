@@ -22,7 +22,7 @@ from yawdamp_ros.simulation.plant import Plant
 from yawdamp_ros.vehicle import supports
 
 PERIOD = 0.02
-"""Of the controller [s]."""
+"""Period of the controller [s]."""
 SPEED = -1.5
 """In m/s."""
 SLOWEST = -0.1
@@ -34,13 +34,13 @@ OFFSET = 4.0
 DEPTH = -60.0
 """Place of the trailer's axles in the bay [m]; its axis is y = 0."""
 HEADING_GAIN, ARTICULATION_GAIN, STEERING_GAIN = 0.06, 1.2, 0.5
-"""Of the three laws, the outer first [rad/m, 1, 1/m]."""
+"""Gains of the three laws, the outer first [rad/m, 1, 1/m]."""
 LARGEST_STEERING = 0.6
 """In rad."""
 
 
 class Docking(NamedTuple):
-    """What became of it.
+    """Outcome of a docking.
 
     Attributes
     ----------

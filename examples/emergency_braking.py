@@ -19,21 +19,21 @@ from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.simulation.plant import Plant
 
 PERIOD = 0.01
-"""Of the controller [s]."""
+"""Period of the controller [s]."""
 SPEED = 15.0
 """In m/s."""
 FRICTION = 0.3
-"""Of the patch."""
+"""Friction of the patch."""
 DEMAND = -6.0
-"""Of the emergency brake [m/s^2]."""
+"""Demanded deceleration [m/s^2]."""
 STEERING = 0.025
-"""Of the bend [rad]."""
+"""Steer angle of the bend [rad]."""
 BRAKING = 6.0
 """Time at which the patch and the braking begin [s]."""
 
 
 class Stop(NamedTuple):
-    """What became of one emergency braking.
+    """Outcome of one emergency braking.
 
     Attributes
     ----------

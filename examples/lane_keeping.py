@@ -23,7 +23,7 @@ LANE = 3.5
 PREVIEW = 1.5
 """Time in s that the prototype looks ahead."""
 WHEELBASE = 4.68
-"""Of a single-track vehicle that turns like the truck, m."""
+"""Wheelbase of a single-track vehicle that turns like the truck [m]."""
 UNDERSTEER = 0.00475
 """Steer angle for lateral acceleration, beyond the wheelbase's share, rad/(m/s^2)."""
 

@@ -23,11 +23,11 @@ from yawdamp_ros.simulation.plant import Plant
 from yawdamp_ros.vehicle import Vehicle
 
 PERIOD = 0.01
-"""Of the controller [s]."""
+"""Period of the controller [s]."""
 GAIN = 8e5
 """Moment for a difference of the yaw rates [N m s/rad]."""
 LARGEST_MOMENT = 8e4
-"""Of the brakes of one side [N m]."""
+"""Largest yaw moment by the brakes of one side [N m]."""
 PREVIEW = 20.0
 """Distance at which the driver looks at the path [m]."""
 SMALL = 0.005
@@ -40,7 +40,7 @@ CORRECTION = 0.05
 
 @dataclass
 class Drive:
-    """What was driven, a row for each period."""
+    """Motion as driven, one row a period."""
 
     x: list[float] = field(default_factory=list)
     y: list[float] = field(default_factory=list)
@@ -62,7 +62,7 @@ class Drive:
 
     @property
     def damping_ratio(self) -> float:
-        """Of the last unit's yaw rate once nothing but its own motion shakes it, by its decrement."""
+        """Damping ratio of the last unit's yaw rate in free motion, by its decrement."""
         rate = np.array(self.yaw_rate)[round(FREE / PERIOD) :, -1]
         size = np.abs(rate)
         peaks = 1 + np.flatnonzero((size[1:-1] >= size[:-2]) & (size[1:-1] > size[2:]))
@@ -130,7 +130,7 @@ def drive(  # noqa: PLR0913 - each is one thing to vary
 
 
 def _preview(path: Drive, aim: float) -> float:
-    """Where the one that drove a path looked when its aim was there: the driver of it needs no correction."""
+    """Return the point at which a driver of this path aimed, who then needs no correction."""
     ahead = np.array(path.x) + PREVIEW * np.cos(path.yaw)
     return float(np.interp(aim, ahead, np.array(path.y) + PREVIEW * np.sin(path.yaw)))
 
@@ -147,7 +147,7 @@ SWAYING = (
     "units.1.yaw_inertia=150000",
     "speed=22.2",
 )
-"""Of a truck with a long centre-axle trailer, whose sway hardly dies out by itself."""
+"""File of a truck with a long centre-axle trailer, whose sway hardly dies out by itself."""
 CASES = (
     ("A-double, dry road", load_vehicle("a_double"), 0.02, 0.8),
     ("A-double, friction 0.3", load_vehicle("a_double"), 0.02, 0.3),

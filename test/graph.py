@@ -29,7 +29,7 @@ SETTLING = 0.3
 """Seconds from one side's finding the other to the reverse: what is sent before is lost."""
 _WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
 _DOMAINS = itertools.cycle(range(1 + 20 * (_WORKER % 5), 21 + 20 * (_WORKER % 5)))
-"""Of this worker alone, so that tests side by side do not hear each other."""
+"""ROS domain of this worker alone, so that tests side by side do not hear each other."""
 
 
 SLEEPER = """

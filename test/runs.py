@@ -1,4 +1,4 @@
-"""What tests know of recorded runs."""
+"""Recorded runs, as tests read them."""
 
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ OUTPUTS: dict[str, type] = {
     "/joint_states": JointState,
 }
 PERIOD = 10_000_000
-"""Of samples at the default rate, in ns."""
+"""Period of samples at the default rate [ns]."""
 
 
 def run_directory(directory: Path) -> Path:
@@ -59,7 +59,7 @@ def simulated_times(run: Path, topic: str = "/truck/imu") -> list[int]:
 
 
 def stepped_again(steering: list[tuple[int, Any]], samples: int) -> list[Sample]:
-    """What the interlink does under the steering that a run recorded as applied."""
+    """Simulate the interlink under the steering that a run recorded as applied."""
     start = steering[0][0]
     angles = {(log_time - start) // 1_000_000: message.data for log_time, message in steering}
 
@@ -77,7 +77,7 @@ def stepped_again(steering: list[tuple[int, Any]], samples: int) -> list[Sample]
 
 
 def check_all_came(arrived: list[Any], published: list[Any], lost: int) -> None:
-    """What must hold of messages that came: as published, in order, none missing but those that DDS counts.
+    """Check messages that arrived: as published, in order, none missing but those that DDS counts.
 
     Those before the first that came were published when nobody listened yet.
     """

@@ -1,4 +1,4 @@
-"""What CONTRIBUTING.md says of the tests is so."""
+"""Statements of CONTRIBUTING.md on the tests are true."""
 
 import re
 from pathlib import Path

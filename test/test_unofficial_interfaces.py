@@ -1,4 +1,4 @@
-"""What the package uses of others beside their public interface: the list in CONTRIBUTING.md, and no more."""
+"""Private interfaces that the package uses are those listed in CONTRIBUTING.md, and no more."""
 
 import ast
 import inspect

@@ -9,6 +9,7 @@ import numpy as np
 from yawdamp_ros.analysis import AnalysisError, Assessment, Turn, low_speed_turn
 from yawdamp_ros.analysis.swept_path import STATIONS, envelope, on_guide
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.pictures.placement import placed
 from yawdamp_ros.vehicle import (
     STANDARD_GRAVITY,
     Axle,
@@ -19,7 +20,6 @@ from yawdamp_ros.vehicle import (
     static_loads,
     supports,
 )
-from yawdamp_ros.vehicle.shape import extent
 
 EVERY = 8
 """Samples of a turn, and stations of its envelope, between drawn points."""
@@ -120,23 +120,18 @@ def side_view(vehicle: Vehicle) -> dict[str, object]:
     >>> len(side_view(load_vehicle("interlink"))["units"])
     3
     """
-    full, marks = complete(vehicle), {each.key for each in assumed(vehicle)}
-    places = [0.0]
-    for rear, front in vehicle.hitches:
-        places.append(places[-1] + rear - front)
     units = []
-    for index, (unit, x) in enumerate(zip(full.units, places, strict=True)):
-        tail, nose = extent(unit)
+    for unit, x, rear, front, assumed_height in placed(vehicle):
         units.append(
             {
                 "name": unit.name,
                 "mass": f"{unit.mass / 1000.0:.1f} t",
-                "rear": x + tail - (unit.rear_overhang or 0.0),
-                "front": x + nose + (unit.front_overhang or 0.0),
+                "rear": rear,
+                "front": front,
                 "floor": min(FLOOR, 0.6 * (unit.height or 0.0)),
                 "height": unit.height,
                 "cg": [x, unit.cg_height],
-                "assumed": f"units.{index}.cg_height" in marks,
+                "assumed": assumed_height,
                 "axles": [
                     [x + axle.position, f"{(axle.static_load or 0.0) / STANDARD_GRAVITY / 1000.0:.1f}"]
                     for axle in unit.axles

@@ -1,15 +1,14 @@
 """A vehicle to scale, from the side and from above."""
 
 from itertools import pairwise
-from typing import NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 
 from yawdamp_ros.pictures.figure import COLOURS, GREY, new_figure
-from yawdamp_ros.vehicle import STANDARD_GRAVITY, Axle, Unit, Vehicle, assumed, complete, supports
-from yawdamp_ros.vehicle.shape import extent
+from yawdamp_ros.pictures.placement import Placed, placed
+from yawdamp_ros.vehicle import STANDARD_GRAVITY, Axle, Vehicle, supports
 
 TYRE_RADIUS = 0.5
 """Radius of every tyre [m], which vehicle files do not give; smaller under a low vehicle."""
@@ -18,28 +17,6 @@ FLOOR = 0.9
 """Height of a body's floor [m]; that of the wheels' centres for a low vehicle."""
 INCHES_PER_METRE = 0.55
 SMALL = 7.5
-
-
-class Placed(NamedTuple):
-    """Unit in its place.
-
-    Attributes
-    ----------
-    unit : Unit
-        Complete.
-    x : float
-        Position of its centre of gravity from the lead unit's, forward positive [m].
-    rear, front : float
-        Ends of its body [m].
-    assumed_height : bool
-        Whether the height of the centre of gravity is assumed.
-    """
-
-    unit: Unit
-    x: float
-    rear: float
-    front: float
-    assumed_height: bool
 
 
 def vehicle_figure(vehicle: Vehicle) -> Figure:
@@ -57,7 +34,7 @@ def vehicle_figure(vehicle: Vehicle) -> Figure:
     -------
     Figure
     """
-    units = _placed(vehicle)
+    units = placed(vehicle)
     front, rear = max(each.front for each in units), min(each.rear for each in units)
     tallest = max(each.unit.height or 0.0 for each in units)
     widest = max(each.unit.width or 0.0 for each in units)
@@ -83,20 +60,6 @@ def vehicle_figure(vehicle: Vehicle) -> Figure:
         fontsize="small",
     )
     return figure
-
-
-def _placed(vehicle: Vehicle) -> list[Placed]:
-    full = complete(vehicle)
-    unsure = {each.key for each in assumed(vehicle)}
-    places = [0.0]
-    for rear_hitch, front_hitch in vehicle.hitches:
-        places.append(places[-1] + rear_hitch - front_hitch)
-    found = []
-    for index, (unit, x) in enumerate(zip(full.units, places, strict=True)):
-        rear, front = extent(unit)
-        ends = x + rear - (unit.rear_overhang or 0.0), x + front + (unit.front_overhang or 0.0)
-        found.append(Placed(unit, x, *ends, f"units.{index}.cg_height" in unsure))
-    return found
 
 
 def _draw_side(axes: Axes, units: list[Placed], radius: float) -> None:

@@ -42,8 +42,12 @@ def recorded_vehicle(path: Path) -> Vehicle:
     log = McapLog(path)
     next(log.messages(), None)  # The metadata that explains a run precedes its first message.
     try:
-        text = log.attachments[VEHICLE_FILE].decode()
-        changes = json.loads(log.metadata[METADATA_NAME]["vehicle_overrides"])
-        return parse_vehicle(text, str(path), changes)
+        return vehicle_of(log, path)
     except Exception as error:  # invalid texts may raise anything
         raise LogError(path, f"it holds no vehicle: {log.warning or error}") from error
+
+
+def vehicle_of(log: McapLog, path: Path) -> Vehicle:
+    """Return the vehicle of a log whose metadata has been read; invalid texts may raise anything."""
+    changes = json.loads(log.metadata[METADATA_NAME]["vehicle_overrides"])
+    return parse_vehicle(log.attachments[VEHICLE_FILE].decode(), str(path), changes)

@@ -17,12 +17,11 @@ from yawdamp_ros.runs.csv_resimulation import TOLERANCE
 from yawdamp_ros.runs.deviations import Deviations, Difference, quantity
 from yawdamp_ros.runs.encoder import TWISTS, Encoded, Encoder, Jump, message_class
 from yawdamp_ros.runs.jumps import jump_of
-from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, VEHICLE_FILE
+from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, vehicle_of
 from yawdamp_ros.simulation import Run, SimParameters, make_motion
 from yawdamp_ros.stepping import AppliedInput, Command, TimeGrid
 from yawdamp_ros.stepping.build import build_of_numerics
 from yawdamp_ros.stepping.stamps import Stamps
-from yawdamp_ros.vehicle import parse_vehicle
 
 SHORTEST_STEP = 1000
 """Shortest step [ns], as for the node."""
@@ -72,11 +71,7 @@ class Resimulation:
         self._first = next(self._messages, None)
         try:
             known = self._log.metadata[METADATA_NAME]
-            vehicle = parse_vehicle(
-                self._log.attachments[VEHICLE_FILE].decode(),
-                str(path),
-                json.loads(known["vehicle_overrides"]),
-            )
+            vehicle = vehicle_of(self._log, path)
             self._grid = TimeGrid(int(known["step_ns"]), int(known["steps_per_sample"]))
             if not (self._grid.step_ns >= SHORTEST_STEP and 1 <= self._grid.steps_per_sample <= MOST_STEPS):
                 message = f"steps of {self._grid.step_ns} ns, {self._grid.steps_per_sample} a sample"
