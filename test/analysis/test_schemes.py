@@ -6,6 +6,7 @@ import pytest
 
 from yawdamp_ros.analysis import (
     AnalysisError,
+    Assessment,
     Verdict,
     assess,
     builtin_schemes,
@@ -129,3 +130,46 @@ def test_there_is_no_other_scheme_and_no_other_level() -> None:
         load_scheme("pbs").level("5")
     with pytest.raises(AnalysisError, match="the scheme has no levels"):
         load_scheme("rtac").level("1")
+
+
+def test_a_light_last_trailer_keeps_its_body_in_the_turn() -> None:
+    changes = ["units.2.rear_overhang=6", "units.2.yaw_inertia=60000", "units.2.mass=5900"]
+    findings = assess(load_vehicle("interlink", changes), scheme=load_scheme("pbs", "tail_swing"))
+    assert [finding.passed for finding in findings] == [False]
+    assert findings[0].value == pytest.approx(0.745, abs=0.01)
+
+
+def test_a_vehicle_that_does_not_stop_has_no_width_in_a_stop() -> None:
+    vehicle = load_vehicle("a_double", ["units.*.axles.*.brake_share=0"])
+    (finding,) = assess(vehicle, scheme=load_scheme("pbs", "directional_stability_under_braking"))
+    assert (finding.value, finding.passed) == (None, None)
+    assert "does not stop within 30 s" in finding.reason
+
+
+def test_a_bound_fails_a_limit_and_meets_none() -> None:
+    scheme = load_scheme("pbs", "tracking_ability_on_a_straight_path")
+    for width, passed in (("2.8", False), ("2.5", None)):
+        vehicle = load_vehicle("a_double", [f"units.*.width={width}"])
+        (finding,) = assess(vehicle, scheme=scheme, level="1")
+        assert (finding.passed, finding.reached) == (passed, None)
+
+
+def test_nothing_is_met_by_measures_without_limits() -> None:
+    scheme = load_scheme("pbs", "rear_static_rollover_threshold")
+    found = outcome(assess(load_vehicle("a_double"), scheme=scheme), scheme)
+    assert (found.verdict, found.reached) == (Verdict.OPEN, None)
+
+
+def test_a_part_of_a_scheme_and_another_speed_are_told() -> None:
+    scheme = load_scheme("pbs", "high_speed_transient_offtracking")
+    vehicle = load_vehicle("a_double")
+    said = Assessment(vehicle, "consistent", scheme, None, assess(vehicle, speed=5.0, scheme=scheme)).sentence
+    assert said.startswith("meets pbs (1 of 17 measures)")
+    assert said.endswith("not at the speed of the standard: high_speed_transient_offtracking")
+
+
+def test_a_motion_that_diverges_leaves_the_other_measures() -> None:
+    vehicle = load_vehicle("a_double", ["units.*.roll_inertia=1"])
+    findings = {each.measure.name: each for each in assess(vehicle, scheme=load_scheme("rtac"))}
+    assert findings["load_transfer_ratio"].value is None
+    assert findings["high_speed_transient_offtracking"].value is not None

@@ -50,7 +50,7 @@ def test_the_command_says_which_share_meets_the_level_and_what_decides(
     assert run(command) == 1
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].startswith("a_double: ")
-    assert lines[0].endswith(" % of 20 vehicles meet pbs")
+    assert lines[0].endswith(" % of 20 vehicles meet pbs (2 of 17 measures)")
     assert any(line.startswith("│ static_rollover_threshold │") for line in lines)
     assert run([*command, "--format", "json"]) == 1
     found = json.loads(capsys.readouterr().out)
@@ -66,7 +66,10 @@ def test_a_measure_that_the_scheme_has_not_is_told_of() -> None:
 @pytest.mark.parametrize(
     "arguments, said",
     [
-        (["--random", "5"], "--random: expected 1 or more, and at least one --range"),
+        (["--random", "5"], "--random: expected at least one --range KEY=A:B"),
+        (["--range", "speed=10:20"], "--range: it goes with --random"),
+        (["--random", "5", "--range", "speed=10:20", "--seed", "-1"], "--seed: -1: expected a whole number"),
+        (["--random", "5", "--range", "speed=10:20", "--jobs", "0"], "--jobs: 0: expected a whole number"),
         (["--random", "5", "--range", "speed=20:30", "--html", "a.html"], "--html: not with --random"),
         (
             ["--random", "5", "--range", "speed=20:30", "--format", "csv"],

@@ -42,6 +42,7 @@ def test_a_table_has_every_curve_and_the_units_of_measure(curves: Curves) -> Non
         "truck/lateral_acceleration",
     ]
     assert table.attrs["units"]["trailer_2/lateral_acceleration"] == "m/s^2"
+    assert table.attrs["units"]["truck/x"] == "m"
     assert table.attrs["units"].keys() == {"time", *table.columns}
     np.testing.assert_array_equal(table["articulation_2"], curves.articulation[:, 1])
 
@@ -97,3 +98,10 @@ def test_an_acceleration_makes_a_speed(tmp_path: Path) -> None:
 def test_only_a_drive_has_a_duration_of_its_own() -> None:
     with pytest.raises(DriveError, match="duration: expected a time in s"):
         simulate("interlink", LaneChange())
+
+
+def test_a_table_has_what_the_nonlinear_model_adds() -> None:
+    run = simulate("truck_trailer", LaneChange(amplitude=0.02), 1.0, sample_period=0.1, model="nonlinear")
+    table = run.columns()
+    np.testing.assert_array_equal(table["trailer/roll"], run.extra["roll"][:, 1])
+    assert run.column_units()["trailer/load_transfer_ratio"] == "1"

@@ -1,5 +1,6 @@
 """Inputs besides steering: each acts, is judged, and repeats bit for bit."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from yawdamp_ros.runs.resimulation import Resimulation
 from yawdamp_ros.runs.response_recording import read_response_recording
 from yawdamp_ros.simulation import Commands, Run, SimParameters, SimulationError, make_motion
 from yawdamp_ros.simulation.inputs import INPUTS, held_inputs
+from yawdamp_ros.simulation.plant import Plant
 from yawdamp_ros.stepping import Sample, TimeGrid, Verdict
 from yawdamp_ros.vehicle import load_vehicle
 
@@ -128,3 +130,34 @@ def test_a_log_stops_a_rig_lets_it_stand_and_backs_it(
     list(again.compare())
     assert again.bit_identical
     assert again.agrees
+
+
+def test_a_speed_that_a_topic_left_is_no_speed_that_is_set() -> None:
+    settings = SimParameters(speed=20.0, longitudinal_source="speed")
+    motion = make_motion(load_vehicle("truck_trailer"), "consistent", 20.0, 0.001)
+    commands = Commands(settings, TimeGrid.of(0.001, 0.01), motion)
+    run = Run(motion, TimeGrid.of(0.001, 0.01), commands, [])
+    run.start()
+    commands.demand("speed", 15.0)
+    run.advance(2)
+    assert motion.speed == 15.0
+    commands.change(replace(settings, speed=15.0))  # the node tells the speed in force
+    commands.change(replace(settings, speed=15.0, longitudinal_source="parameter"))
+    commands.change(replace(settings, speed=20.0, longitudinal_source="parameter"))
+    run.advance(2)
+    assert motion.speed == 20.0
+
+
+def test_a_rollover_is_recorded_whatever_else_acts(tmp_path: Path) -> None:
+    rows = [f"{0.1 * row},{0.12 if row > 10 else 0.0},0.8" for row in range(60)]
+    (tmp_path / "log.csv").write_text("\n".join(["time,steering_angle,friction", *rows]))
+    recorded = tmp_path / "run"
+    options = ["--vehicle", "a_double", "--model", "nonlinear", "--log", str(tmp_path / "log.csv")]
+    assert main([*options, "--output", str(recorded)]) == 1
+    assert read_response_recording(recorded).events[-1].name == "rollover"
+
+
+def test_a_manoeuvre_leaves_no_steering_to_command() -> None:
+    plant = Plant(SimParameters(manoeuvre="step"))
+    with pytest.raises(SimulationError, match="steering: a run with a manoeuvre does not take it"):
+        plant.step({"steering": 0.5})

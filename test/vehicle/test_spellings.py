@@ -171,3 +171,21 @@ def test_degrees_and_radians_agree() -> None:
     assert vehicle.units[1].axles[0].cornering_stiffness == pytest.approx(
         8726.646259971648 * math.degrees(1.0)
     )
+
+
+def test_a_lifted_axle_leaves_no_weight_in_the_air() -> None:
+    said = "units.1.axles.0: lifted: expected no static_load on this unit"
+    with pytest.raises(VehicleError, match=re.escape(said)):
+        load_vehicle("interlink", ["units.1.axles.0.lifted=true"])
+
+
+def test_positions_that_are_no_numbers_are_named() -> None:
+    said = "units.0.positions_from: expected numbers for cg_position, hitches and positions"
+    with pytest.raises(VehicleError, match=re.escape(said)):
+        load_vehicle("truck_trailer", ["units.0.positions_from=front_axle", "units.0.cg_position=abc"])
+
+
+def test_a_coefficient_needs_steered_axles_and_others() -> None:
+    changes = ["units.0.axles.*.cornering_coefficient=5", "units.0.axles.*.steered=true"]
+    with pytest.raises(VehicleError, match="cornering_coefficient needs the axles' loads"):
+        load_vehicle("truck_trailer", changes)

@@ -68,6 +68,11 @@ class Finding:
     reached: int | None = None
 
     @property
+    def is_off_standard(self) -> bool:
+        """True where the measure has a limit, and a speed of its own that is not the one taken."""
+        return bool(self.requirements) and self.measure.speed not in {None, self.speed}
+
+    @property
     def level(self) -> str | None:
         """Limits of the scheme as text."""
         return "; ".join(each.text for each in self.requirements) or None
@@ -94,7 +99,7 @@ class Outcome:
     Attributes
     ----------
     verdict : Verdict
-        Open where nothing is failed and something is not known.
+        Open where nothing is failed and something is not known, or nothing has a limit.
     reached : str or None
         Hardest level that every measure with a value meets; None where there is none.
     deciding : tuple of str
@@ -160,6 +165,8 @@ class Assessment:
             parts.append(f"decided by {', '.join(found.deciding)}")
         if found.unknown:
             parts.append(f"not known: {', '.join(found.unknown)}")
+        if moved := [each.measure.name for each in self.findings if each.is_off_standard]:
+            parts.append(f"not at the speed of the standard: {', '.join(moved)}")
         return "; ".join(parts)
 
 
@@ -257,7 +264,8 @@ def outcome(findings: Iterable[Finding], scheme: Scheme) -> Outcome:
         for finding in judged
         if finding.passed is None and (finding.value is not None or finding.reason)
     )
-    verdict = Verdict.FAIL if failing else Verdict.OPEN if unknown else Verdict.PASS
+    held_to = any(finding.passed for finding in judged)
+    verdict = Verdict.FAIL if failing else Verdict.PASS if held_to and not unknown else Verdict.OPEN
     known = [
         finding for finding in judged if finding.value is not None and finding.measure.name not in unknown
     ]
@@ -368,8 +376,9 @@ def _judged(
 
     reached = next((place for place in range(easiest + 1) if met(value, place)), None)
     passed = met(value, chosen)
-    if passed and isinstance(finding.measure, VehicleMeasure) and finding.measure.caveat:
-        passed = reached = None  # A lower bound cannot meet an upper limit.
+    if isinstance(finding.measure, VehicleMeasure) and finding.measure.caveat:
+        # A lower bound cannot meet an upper limit, at any level.
+        passed, reached = False if passed is False else None, None
     judged = replace(finding, limits=limits, reached=reached, passed=passed)
     span = spans.get(finding.measure.name)
     if span is None or {met(reading, chosen) for reading in span} == {passed}:

@@ -222,7 +222,7 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
     Raises
     ------
     AnalysisError
-        If the vehicle rolls over or folds up.
+        If the vehicle rolls over or does not stop.
 
     Examples
     --------
@@ -239,6 +239,9 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
 
     inputs = dynamics.inputs(acceleration=-HARD_BRAKING, friction=SPLIT_FRICTION)
     run = _driven(dynamics, dynamics.initial_state(speed), inputs, steering, LONGEST_STOP, WALKING)
+    if run.outputs.velocity[-1, 0, 0] > WALKING:
+        message = f"{vehicle.name}: does not stop within {LONGEST_STOP:g} s"
+        raise AnalysisError(message)
     low, high = _swept(vehicle, run.outputs, 0.0)
     return float(high.max() - low.min())
 
@@ -249,7 +252,7 @@ def _castering(vehicle: Vehicle) -> Vehicle:
         replace(
             unit,
             axles=tuple(
-                replace(axle, cornering_stiffness=1e-3, tyres=None, tyre="linear")
+                replace(axle, cornering_stiffness=FREE, tyres=None, tyre="linear")
                 if axle.self_steering
                 else axle
                 for axle in unit.axles

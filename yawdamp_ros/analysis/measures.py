@@ -19,11 +19,13 @@ from yawdamp_ros.analysis.amplification import (
 )
 from yawdamp_ros.analysis.answers import Answers, stack_of
 from yawdamp_ros.analysis.eigenmodes import least_damping_ratios
+from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.lane_change import SAE_J2179, SAE_J2179_SPEED, LaneChangeRuns
 from yawdamp_ros.analysis.speed_brackets import SPEEDS
 from yawdamp_ros.analysis.steady_state import understeer_gradients
 from yawdamp_ros.analysis.yaw_damping import EXCITED, PULSE_WIDTH, yaw_dampings
 from yawdamp_ros.dynamics import LinearModel
+from yawdamp_ros.errors import YawdampError
 from yawdamp_ros.vehicle import Vehicle
 
 PBS_DAMPING_SPEED = 80.0 / 3.6
@@ -124,7 +126,10 @@ def _later(module: str, function: str, *, at_speed: bool = False) -> Callable[[V
 
     def value(vehicle: Vehicle, speed: float) -> float | None:
         of_vehicle = getattr(import_module(f"yawdamp_ros.analysis.{module}"), function)
-        found: float | None = of_vehicle(vehicle, speed) if at_speed else of_vehicle(vehicle)
+        try:
+            found: float | None = of_vehicle(vehicle, speed) if at_speed else of_vehicle(vehicle)
+        except YawdampError as error:  # the compiled model's own loads with it
+            raise AnalysisError(str(error)) from error
         return found
 
     return value
@@ -358,6 +363,7 @@ _OF_VEHICLES = (
         "on the right, a driver keeping the steered axle on its line; by the nonlinear model (PBS)",
         _later("driven", "directional_stability_under_braking", at_speed=True),
         60.0 / 3.6,
+        caveat="the driver is ideal, lane and friction are assumed: a lower bound",
     ),
 )
 

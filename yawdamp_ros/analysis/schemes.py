@@ -200,7 +200,7 @@ def load_scheme(scheme: str | Path, only: str | None = None) -> Scheme:
 
 
 def _restricted(scheme: Scheme, names: list[str]) -> Scheme:
-    """Scheme with some of its measures, and those that limits of these are multiplied by."""
+    """Scheme with some of its measures, as its name says, and those that multiply limits of these."""
     for name in names:
         if name not in scheme.measures:
             message = f"measures: {name}: {scheme.name}: expected one of {', '.join(scheme.measures)}"
@@ -208,7 +208,10 @@ def _restricted(scheme: Scheme, names: list[str]) -> Scheme:
     kept = tuple(each for each in scheme.requirements if each.measure in names)
     needed = {*names, *(each.times for each in kept)}
     return replace(
-        scheme, measures=tuple(name for name in scheme.measures if name in needed), requirements=kept
+        scheme,
+        name=f"{scheme.name} ({len(set(names))} of {len(scheme.measures)} measures)",
+        measures=tuple(name for name in scheme.measures if name in needed),
+        requirements=kept,
     )
 
 

@@ -173,7 +173,7 @@ def _steepest(vehicle: Vehicle, force: float) -> float:
     rolling = _rolling(full) / weight
     # weight (sin + rolling cos) = force, and on the limit of friction the driven load, too, goes with cos.
     share = force / (weight * math.hypot(1.0, rolling))
-    by_force = math.tan(math.asin(min(share, 1.0)) - math.atan(rolling)) if share < 1.0 else math.inf
+    by_force = math.tan(math.asin(share) - math.atan(rolling)) if share < 1.0 else math.inf
     return 100.0 * max(min(by_force, _grip(full) / weight - rolling), 0.0)
 
 

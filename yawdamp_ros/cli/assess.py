@@ -20,10 +20,17 @@ from yawdamp_ros.analysis.engineering import SI, SYSTEMS
 from yawdamp_ros.analysis.measures import NONLINEAR
 from yawdamp_ros.analysis.schemes import DEFAULT_SCHEME
 from yawdamp_ros.cli import assess_report
+from yawdamp_ros.cli.draws import check_draws
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.number import ROUNDING_NOISE, number
-from yawdamp_ros.cli.options import DEFAULT_MODEL, Parser, add_vehicle_options, chosen_vehicle
+from yawdamp_ros.cli.options import (
+    DEFAULT_MODEL,
+    DEFAULT_VEHICLE,
+    Parser,
+    add_vehicle_options,
+    chosen_vehicle,
+)
 from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.simulation import MODELS
 
@@ -39,7 +46,7 @@ def main(argv: Sequence[str]) -> int:
     scheme = load_scheme(options.scheme, options.measures)
     if options.random is not None:
         return _many(options, scheme)
-    assessments = [_assessed(options, scheme, name) for name in options.vehicle or [None]]
+    assessments = [_assessed(options, scheme, name) for name in options.vehicle or [DEFAULT_VEHICLE]]
     _write_files(options, assessments)
     if options.format == "json":
         assess_report.print_json(assessments)
@@ -76,8 +83,8 @@ def _write_files(options: argparse.Namespace, assessments: Sequence[Assessment])
         save_workbook(assess_report.table(assessments, options.units), options.xlsx)
 
 
-def _assessed(options: argparse.Namespace, scheme: Scheme, name: str | None) -> Assessment:
-    vehicle = chosen_vehicle(argparse.Namespace(**{**vars(options), "vehicle": name}))
+def _assessed(options: argparse.Namespace, scheme: Scheme, name: str) -> Assessment:
+    vehicle = chosen_vehicle(options, name)
     model = options.model or DEFAULT_MODEL
     findings = assess(vehicle, model, options.speed, options.srt, scheme, options.level)
     return Assessment(vehicle, model, scheme, options.level, findings)
@@ -89,16 +96,17 @@ def _many(options: argparse.Namespace, scheme: Scheme) -> int:
         if getattr(options, name) is not None:
             message = f"--{name}: not with --random, which judges many vehicles"
             raise UsageError(message)
-    names = options.vehicle or [None]
+    names = options.vehicle or [DEFAULT_VEHICLE]
     if len(names) > 1 or options.format == "csv":
         message = "--random: expected one --vehicle, and text or json"
         raise UsageError(message)
     from yawdamp_ros.cli import assess_sweep  # noqa: PLC0415 - it brings what sweeps need
 
-    return assess_sweep.run(argparse.Namespace(**{**vars(options), "vehicle": names[0]}), scheme)
+    return assess_sweep.run(options, scheme, names[0])
 
 
 def _check(options: argparse.Namespace) -> None:
+    check_draws(options)
     for name, endings in (("html", PAGES), ("pdf", (".pdf",)), ("xlsx", (".xlsx",))):
         path = getattr(options, name)
         if path is not None and Path(path).suffix.lower() not in endings:
@@ -113,15 +121,15 @@ def _check(options: argparse.Namespace) -> None:
 
 def _differences(options: argparse.Namespace) -> int:
     """Print the difference of each measure between the models, at its own manoeuvre."""
-    for name in ("html", "pdf", "xlsx", "srt", "model", "level"):
+    for name in ("html", "pdf", "xlsx", "srt", "model", "level", "random"):
         if getattr(options, name) is not None:
             message = f"--{name}: not with --differences, which compares the models"
             raise UsageError(message)
-    vehicles = options.vehicle or [None]
+    vehicles = options.vehicle or [DEFAULT_VEHICLE]
     if len(vehicles) > 1:
         message = "--vehicle: expected one with --differences, which compares the models"
         raise UsageError(message)
-    vehicle = chosen_vehicle(argparse.Namespace(**{**vars(options), "vehicle": vehicles[0]}))
+    vehicle = chosen_vehicle(options, vehicles[0])
     pairs = differences(vehicle, options.speed)
     if options.format == "json":
         records = [

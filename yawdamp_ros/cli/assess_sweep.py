@@ -10,22 +10,17 @@ from yawdamp_ros.analysis.points import Draws
 from yawdamp_ros.analysis.share import SchemeStudy, Share, share_of
 from yawdamp_ros.analysis.study import Study, evaluate_all
 from yawdamp_ros.cli.console import progress_bar
-from yawdamp_ros.cli.errors import UsageError
+from yawdamp_ros.cli.draws import parse_span
 from yawdamp_ros.cli.executors import mapping
-from yawdamp_ros.cli.options import DEFAULT_MODEL, chosen_name, chosen_vehicle, overrides
-from yawdamp_ros.cli.sweep import parse_span
+from yawdamp_ros.cli.options import DEFAULT_MODEL, chosen_vehicle, overrides
 from yawdamp_ros.cli.table import print_table
 from yawdamp_ros.vehicle import vehicle_text
 
 
-def run(options: argparse.Namespace, scheme: Scheme) -> int:
+def run(options: argparse.Namespace, scheme: Scheme, name: str) -> int:
     """Draw, assess and report; 0 if all meet the level."""
-    if not options.range or options.random < 1:
-        message = "--random: expected 1 or more, and at least one --range KEY=A:B"
-        raise UsageError(message)
     spans = [parse_span(text) for text in options.range]
-    chosen_vehicle(options)  # warns of implausible values, whichever key varies
-    name = chosen_name(options)
+    chosen_vehicle(options, name)  # warns of implausible values, whichever key varies
     text, changes = vehicle_text(name), tuple(overrides(options))
     keys = tuple(each for each, _ in spans)
     model = options.model or DEFAULT_MODEL

@@ -122,9 +122,9 @@ def chosen_name(options: argparse.Namespace) -> str:
     return DEFAULT_VEHICLE if options.vehicle is None else str(options.vehicle)
 
 
-def chosen_vehicle(options: argparse.Namespace) -> Vehicle:
-    """Vehicle of the options, with overrides and speed; warn of implausible values."""
-    name = chosen_name(options)
+def chosen_vehicle(options: argparse.Namespace, name: str | None = None) -> Vehicle:
+    """Vehicle of the options, or of a name, with overrides and speed; warn of implausible values."""
+    name = chosen_name(options) if name is None else name
     vehicle, doubts = examined_vehicle(vehicle_text(name), name, overrides(options))
     for doubt in doubts:
         print(one_line(f"warning: {name}: {doubt}"), file=sys.stderr)

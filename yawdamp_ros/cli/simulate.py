@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.progress import Progress
@@ -52,6 +52,9 @@ from yawdamp_ros.simulation.inputs import LONGITUDINAL
 from yawdamp_ros.stepping import Motion, Sample, TimeGrid, Verdict
 from yawdamp_ros.vehicle import Vehicle, vehicle_source
 
+if TYPE_CHECKING:
+    from yawdamp_ros.runs.encoder import Encoder
+
 DEFAULT_DURATION = 15.0
 RUN_SAMPLE_PERIOD = 0.01
 DAY = 86400.0
@@ -72,17 +75,20 @@ def main(arguments: Sequence[str]) -> int:
     check_room(output, grid.samples_in(settings.duration) + 1, len(vehicle.units))
     peaks = Peaks(len(vehicle.units))
     linear_range = LinearRange(vehicle.unit_names, Limits.warning(settings))
+    encoder: Encoder | None = None
     with StopRequest() as stop:
         if _to_csv(options):
             sink: Sink = ResponseCsv(output, motion, grid)
         else:
             require_ros()
             output = make_run_directory(output, numbered=not options.output)
-            sink = _run_sink(output, motion, grid, settings, options)
+            sink = encoder = _encoder(output, motion, grid, settings, options)
         with progress_bar() as bar:
             sinks = [sink, peaks, linear_range, _ProgressSink(bar, grid, settings.duration)]
             with closing(Run(motion, grid, commands, sinks, Limits.of(settings))) as run:
                 _carry_out(run, grid.samples_in(settings.duration), stop)
+                if run.unwritten and encoder is not None:
+                    encoder.tell(run.unwritten)
     if options.format == "json":
         record = peaks_record(motion.linearise(), peaks, linear_range.first, grid)
         stopped = None if run.stopped is None else run.stopped._asdict()
@@ -108,7 +114,8 @@ def _played(
         return None, {}
     source = options.longitudinal_source or "speed"
     inputs = dict(log.inputs)
-    if "acceleration" in inputs and "speed" not in inputs and "acceleration" not in motion.input_names:
+    integrates = source == "speed" and "speed" not in inputs and "acceleration" not in motion.input_names
+    if "acceleration" in inputs and integrates:
         times, values = inputs.pop("acceleration")
         inputs["speed"] = times, speeds_by_acceleration(times, values, motion.speed).tolist()
         print(f"following the log's acceleration, from {motion.speed:g} m/s on")
@@ -212,9 +219,9 @@ def _sample_period(options: argparse.Namespace) -> float:
     return float(options.step_size) if _to_csv(options) else RUN_SAMPLE_PERIOD
 
 
-def _run_sink(
+def _encoder(
     directory: Path, motion: Motion, grid: TimeGrid, settings: SimParameters, options: argparse.Namespace
-) -> Sink:
+) -> "Encoder":
     from yawdamp_ros.runs.encoder import Encoder  # noqa: PLC0415 - a CSV needs no ROS
     from yawdamp_ros.runs.recipe import Recipe, RunFile  # noqa: PLC0415
 

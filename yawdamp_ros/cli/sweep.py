@@ -16,15 +16,16 @@ from yawdamp_ros.analysis.stability_map import boundary_segments
 from yawdamp_ros.analysis.study import STABILITY, STUDIED, Study, evaluate_all
 from yawdamp_ros.cli import sweep_report
 from yawdamp_ros.cli.console import progress_bar
+from yawdamp_ros.cli.draws import check_draws, parse_span, refuse
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.executors import mapping
 from yawdamp_ros.cli.extras import require
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
-    DEFAULT_VEHICLE,
     Parser,
     add_format_option,
     add_vehicle_options,
+    chosen_name,
     chosen_vehicle,
     overrides,
 )
@@ -120,7 +121,7 @@ def _sink(plan: Plan, columns: Sequence[str], output: str | None) -> SweepFile |
 
 
 def _plan(options: argparse.Namespace) -> Plan:
-    vehicle = options.vehicle or DEFAULT_VEHICLE
+    vehicle = chosen_name(options)
     axes = tuple(map(parse_variation, options.vary))
     spans = [parse_span(text) for text in options.range]
     keys = tuple(axis.keys for axis in axes) or tuple(keys for keys, _ in spans)
@@ -159,19 +160,6 @@ def _boundaries(plan: Plan, answers: FloatArray) -> tuple[Boundary, ...]:
     return find_boundaries(eigenvalue, scan)
 
 
-def parse_span(text: str) -> tuple[tuple[str, ...], tuple[float, float]]:
-    """Read KEY=A:B, where KEY may be several with commas."""
-    key, separator, span = text.partition("=")
-    try:
-        low, high = map(float, span.split(":"))
-    except ValueError:
-        separator = ""
-    if not (separator and key and np.isfinite(high - low) and low < high):
-        message = f"--range: {text}: expected KEY=A:B, A below B, as in units.2.mass=5000:30000"
-        raise UsageError(message)
-    return tuple(key.split(",")), (low, high)
-
-
 def _check(options: argparse.Namespace) -> None:
     """Refuse options that do not go together before anything is computed."""
     drawn = options.random is not None
@@ -182,11 +170,6 @@ def _check(options: argparse.Namespace) -> None:
         == drawn,
         f"--vary: {len(options.vary)} times; expected once or twice": len(options.vary) > MOST_AXES,
         "--range: it goes with --random; --vary has its own range": options.vary and options.range,
-        "--random: expected at least one --range KEY=A:B": drawn and not options.range,
-        f"--random: {options.random}: expected a whole number, 1 or more": drawn and options.random < 1,
-        f"--seed: {options.seed}: expected a whole number, 0 or more": options.seed < 0,
-        f"--jobs: {options.jobs}: expected a whole number, 1 or more": options.jobs is not None
-        and options.jobs < 1,
         f"--output: {options.output}: expected a name ending in .csv or {PARQUET}": _named_otherwise(
             options.output, ".csv", PARQUET
         ),
@@ -194,9 +177,8 @@ def _check(options: argparse.Namespace) -> None:
             options.plot, ".png", ".svg"
         ),
     }
-    for message, is_so in wrong.items():
-        if is_so:
-            raise UsageError(message)
+    refuse(wrong)
+    check_draws(options)
     if options.plot:
         require("matplotlib")
     if options.scheduler:

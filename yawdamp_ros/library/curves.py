@@ -4,15 +4,15 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.runs.outputs import Output, available, columns, quantity
 from yawdamp_ros.stepping import Response
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
-
-UNIT_QUANTITIES = {"yaw": "rad", "yaw_rate": "rad/s", "lateral_acceleration": "m/s^2", "x": "m", "y": "m"}
-"""Quantities of every unit, each with its unit of measure."""
 
 
 class UnitCurves(NamedTuple):
@@ -91,7 +91,7 @@ class Curves(Response):
             message = f"{unit!r}: no such unit; expected one of {', '.join(self.unit_names)}"
             raise KeyError(message)
         index = self.unit_names.index(unit)
-        return UnitCurves(self.time, *(getattr(self, name)[:, index] for name in UNIT_QUANTITIES))
+        return UnitCurves(self.time, *(getattr(self, name)[:, index] for name in UnitCurves._fields[1:]))
 
     def columns(self) -> dict[str, FloatArray]:
         """Every curve by the name of its column.
@@ -99,19 +99,24 @@ class Curves(Response):
         Returns
         -------
         dict of str to ndarray, shape (m,)
-            ``steering_angle``, ``<unit>/yaw`` and so on, ``articulation_1`` onwards.
+            Those of a CSV file but for the time and the speed: ``steering_angle``, ``<unit>/yaw`` and so on,
+            ``articulation_1`` onwards, ``<unit>/x``, ``<unit>/y``.
         """
-        units = {
-            f"{unit}/{name}": getattr(self, name)[:, index]
-            for index, unit in enumerate(self.unit_names)
-            for name in UNIT_QUANTITIES
+        curves = {
+            name: np.reshape(quantity(self, output.name), (len(self.time), -1))[:, index]
+            for name, output, index in self._table()
         }
-        joints = {f"articulation_{joint}": angles for joint, angles in enumerate(self.articulation.T, 1)}
-        return {"steering_angle": self.steering_angle, **units, **joints}
+        for index, unit in enumerate(self.unit_names):
+            curves |= {f"{unit}/x": self.x[:, index], f"{unit}/y": self.y[:, index]}
+        return curves
 
     def column_units(self) -> dict[str, str]:
         """Unit of measure of every column."""
-        return {name: UNIT_QUANTITIES.get(name.rpartition("/")[2], "rad") for name in self.columns()}
+        known = {name: output.unit for name, output, _ in self._table()}
+        return {name: known.get(name, "m") for name in self.columns()}
+
+    def _table(self) -> list[tuple[str, Output, int]]:
+        return columns(available(self.extra), self.unit_names)
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Table of every curve, by the package pandas (the extra ``pandas``).

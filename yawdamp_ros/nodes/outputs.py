@@ -1,6 +1,7 @@
 """Publishers of a sample."""
 
 from collections import Counter
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rclpy.event_handler import PublisherEventCallbacks
@@ -17,6 +18,7 @@ from yawdamp_ros.runs.encoder import Encoded, Encoder, message_class
 from yawdamp_ros.runs.recipe import EVENT_TYPE, EVENTS, event_message
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.simulation import SimParameters
+from yawdamp_ros.stepping import Event
 from yawdamp_ros.vehicle import Vehicle
 
 NO_EVENTS = PublisherEventCallbacks(use_default_callbacks=False)
@@ -87,8 +89,7 @@ class Topics:
     def write(self, encoded: Encoded) -> None:
         """Publish a sample of one instant."""
         self._newest = encoded
-        for event in encoded.sample.events:
-            self.tell(event_message(event))
+        self._publish_events(encoded.sample.events)
         [stamp], [messages] = encoded.stamps, encoded.messages
         if self._clock is not None:
             self._clock.publish(Clock(clock=Time(nanoseconds=stamp).to_msg()))
@@ -103,10 +104,14 @@ class Topics:
         if self._markers is not None:
             self._markers.publish(markers(*scene))
 
-    def tell(self, event: Any) -> None:  # noqa: ANN401 - a generated message
-        """Publish an event."""
+    def tell(self, events: Sequence[tuple[int, Event]]) -> None:
+        """Publish events that no sample bears; see `EncodedSink`."""
+        self._publish_events(event for _, event in events)
+
+    def _publish_events(self, events: Iterable[Event]) -> None:
         if self._events is not None:
-            self._events.publish(event)
+            for event in events:
+                self._events.publish(event_message(event))
 
     def repeat(self) -> None:
         """Publish the newest sample again for late subscribers."""

@@ -7,7 +7,8 @@ from yawdamp_ros.logs import LogError
 from yawdamp_ros.nodes.states import RecorderState
 from yawdamp_ros.runs import BackgroundWriter, RunWriter, SerialisedMessage
 from yawdamp_ros.runs.encoder import Encoded
-from yawdamp_ros.runs.recipe import recorded_messages
+from yawdamp_ros.runs.recipe import event_messages, recorded_messages
+from yawdamp_ros.stepping import Event
 
 
 class Recorder:
@@ -84,6 +85,11 @@ class Recorder:
         """Take a sample; see `EncodedSink`."""
         if self.recording:
             self.offer(recorded_messages(encoded))
+
+    def tell(self, events: Sequence[tuple[int, Event]]) -> None:
+        """Take events that no sample bears; see `EncodedSink`."""
+        if self.recording:
+            self.offer(event_messages(events))
 
     def close(self) -> None:
         """See `stop`."""

@@ -1,6 +1,7 @@
 """Serves a simulator by a steady clock, services and parameters."""
 
 import time
+from dataclasses import replace
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.msg import SetParametersResult
@@ -130,14 +131,14 @@ class Server:
     def _on_reset(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._simulator.commands.reset()
         response.success = True
-        response.message = answer(Reply.RESET, "at rest at the origin from the next step on")
+        response.message = answer(Reply.RESET, "at the start from the next step on")
         return response
 
     def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._waiting = False
         if request.data:
             self._pacer.pause(time.monotonic_ns())
         else:
-            self._waiting = False
             self._pacer.resume(time.monotonic_ns())
         response.success = True
         response.message = (
@@ -222,6 +223,7 @@ class Server:
             self._tells_speed = True
             self._node.set_parameters([Parameter("speed", value=speed)])
             self._tells_speed = False
+            self._simulator.change(replace(self._simulator.settings, speed=speed))
 
     def _readings(self) -> Readings:
         simulator = self._simulator

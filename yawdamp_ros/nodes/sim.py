@@ -5,7 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from rclpy.node import Node
-from rclpy.serialization import serialize_message
 
 from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
@@ -16,7 +15,7 @@ from yawdamp_ros.nodes.recorder import Recorder
 from yawdamp_ros.nodes.subscriptions import InputSubscription, SteeringSubscription
 from yawdamp_ros.runs import default_run_directory, make_run_directory
 from yawdamp_ros.runs.encoder import Encoder
-from yawdamp_ros.runs.recipe import EVENTS, Recipe, event_message
+from yawdamp_ros.runs.recipe import Recipe
 from yawdamp_ros.simulation import Commands, Limits, LinearRange, Run, SimParameters, Sink, Stop, make_motion
 from yawdamp_ros.stepping import Sample, TimeGrid
 from yawdamp_ros.vehicle import examined_vehicle, vehicle_source
@@ -173,11 +172,7 @@ class Simulator:
 
     def _tell_stop(self) -> None:
         if self.run.stopped is not None:
-            for event in self.run.unwritten:
-                message = event_message(event)
-                self.topics.tell(message)
-                stamp = self._encoder.stamps.of(event.step)
-                self.recorder.offer([(EVENTS, stamp, serialize_message(message))])
+            self._encoder.tell(self.run.unwritten)
             self._node.get_logger().error(f"stopped at {self.run.time:g} s: {self.run.stopped.reason}")
 
     def _tell_range(self, beyond: Stop) -> None:

@@ -76,8 +76,7 @@ class SteeringSubscription:
         guard: Guard,
     ) -> None:
         self._receive = guard(self._judge)
-        self._warned_at: dict[Verdict, float] = {}
-        self._node = node
+        self._warn = _Warnings(node, "steering")
         self._angle = STEERING_TYPES[type_name]
         self._joint = joint
         self._target = target
@@ -104,13 +103,6 @@ class SteeringSubscription:
             count = self._target.steering_input.counts[verdict]
             self._warn(verdict, f"{command}{stamped}: {VERDICT_SENTENCES[verdict]}, {count} so far")
 
-    def _warn(self, kind: Verdict, text: str) -> None:
-        # rclpy throttles by line of code; one kind of warning must not hide the other.
-        now = time.monotonic()
-        if now - self._warned_at.get(kind, -WARNING_PERIOD) >= WARNING_PERIOD:
-            self._warned_at[kind] = now
-            self._node.get_logger().warning(f"steering: {text}")
-
 
 class InputSubscription:
     """Hands one of the inputs besides steering to `Commands`.
@@ -125,9 +117,9 @@ class InputSubscription:
     """
 
     def __init__(self, node: Node, name: str, target: Commands, guard: Guard) -> None:
-        self._node, self._name, self._target = node, name, target
+        self._name, self._target = name, target
         self._receive = guard(self._judge)
-        self._warned_at: dict[Verdict, float] = {}
+        self._warn = _Warnings(node, name)
         self._subscription = node.create_subscription(
             Float64, name, self._receive, QUEUE_DEPTH, event_callbacks=QUIET
         )
@@ -138,15 +130,23 @@ class InputSubscription:
 
     def _judge(self, message: Float64) -> None:
         verdict = self._target.demand(self._name, message.data)
+        if verdict is not Verdict.ACCEPTED:
+            count = self._target.held[self._name].counts[verdict]
+            self._warn(verdict, f"{message.data}: {VERDICT_SENTENCES[verdict]}, {count} so far")
+
+
+class _Warnings:
+    """Warnings of a topic, throttled by verdict: rclpy throttles by line of code, which would mix them."""
+
+    def __init__(self, node: Node, topic: str) -> None:
+        self._node, self._topic = node, topic
+        self._warned_at: dict[Verdict, float] = {}
+
+    def __call__(self, verdict: Verdict, text: str) -> None:
         now = time.monotonic()
-        lately = now - self._warned_at.get(verdict, -WARNING_PERIOD) < WARNING_PERIOD
-        if verdict is Verdict.ACCEPTED or lately:
-            return
-        self._warned_at[verdict] = now
-        count = self._target.held[self._name].counts[verdict]
-        self._node.get_logger().warning(
-            f"{self._name}: {message.data}: {VERDICT_SENTENCES[verdict]}, {count} so far"
-        )
+        if now - self._warned_at.get(verdict, -WARNING_PERIOD) >= WARNING_PERIOD:
+            self._warned_at[verdict] = now
+            self._node.get_logger().warning(f"{self._topic}: {text}")
 
 
 def _drain(subscription: Any, receive: Callable[[Any], None]) -> None:  # noqa: ANN401 - rclpy's

@@ -13,7 +13,7 @@ from yawdamp_ros.runs.frames import Frames
 from yawdamp_ros.runs.outputs import FLOAT64, Output, available, quantity
 from yawdamp_ros.runs.templates import Blank, Templates
 from yawdamp_ros.simulation import SimParameters
-from yawdamp_ros.stepping import Motion, Sample, TimeGrid
+from yawdamp_ros.stepping import Event, Motion, Sample, TimeGrid
 from yawdamp_ros.stepping.pose import half_turns
 from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.stepping.time_grid import SECOND
@@ -110,6 +110,9 @@ class EncodedSink(Protocol):
 
     def write(self, encoded: Encoded) -> None:
         """Take a sample."""
+
+    def tell(self, events: Sequence[tuple[int, Event]]) -> None:
+        """Take events that no sample bears, each with its stamp [ns]."""
 
     def close(self) -> None:
         """Finish."""
@@ -208,6 +211,12 @@ class Encoder:
         encoded = self.encoded(sample)
         for sink in self.sinks:
             sink.write(encoded)
+
+    def tell(self, events: Sequence[Event]) -> None:
+        """Hand on events that no sample bears, as of a run that ended before its next sample."""
+        stamped = [(self.stamps.of(event.step), event) for event in events]
+        for sink in self.sinks:
+            sink.tell(stamped)
 
     def close(self) -> None:
         """Close all sinks."""

@@ -3,7 +3,7 @@
 import json
 import math
 import platform
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -155,6 +155,10 @@ class RunFile:
         """Append the messages of a sample."""
         self._writer.write(recorded_messages(encoded))
 
+    def tell(self, events: Sequence[tuple[int, Event]]) -> None:
+        """Append events, each with its stamp [ns]."""
+        self._writer.write(event_messages(events))
+
     def close(self) -> None:
         """Finish the run."""
         self._writer.close()
@@ -195,6 +199,11 @@ def _before(encoded: Encoded) -> Iterator[SerialisedMessage]:
             yield EVENTS, stamp, serialize_message(event_message(each))
         else:
             yield applied_topic(each.name), stamp, serialised_input(each)
+
+
+def event_messages(events: Sequence[tuple[int, Event]]) -> list[SerialisedMessage]:
+    """Messages of events, each with its stamp [ns]."""
+    return [(EVENTS, stamp, serialize_message(event_message(event))) for stamp, event in events]
 
 
 def event_message(event: Event) -> Any:  # noqa: ANN401 - a generated message

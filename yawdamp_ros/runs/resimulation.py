@@ -19,7 +19,7 @@ from yawdamp_ros.runs.encoder import TWISTS, Encoded, Encoder, Jump, message_cla
 from yawdamp_ros.runs.jumps import jump_of
 from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, vehicle_of
 from yawdamp_ros.simulation import Run, SimParameters, make_motion
-from yawdamp_ros.stepping import AppliedInput, Command, TimeGrid
+from yawdamp_ros.stepping import AppliedInput, Command, Event, TimeGrid
 from yawdamp_ros.stepping.build import build_of_numerics
 from yawdamp_ros.stepping.stamps import Stamps
 
@@ -151,6 +151,9 @@ class Resimulation:
             # Outputs added after the version that recorded the run are not in it.
             if self.difference is None and name in self._topics:
                 self._compare(self._topics[name], self._encoder.types[name], data)
+
+    def tell(self, events: Sequence[tuple[int, Event]]) -> None:
+        """See `EncodedSink`; events follow from the motion, and are not compared."""
 
     def close(self) -> None:
         """See `EncodedSink`."""

@@ -14,6 +14,7 @@ from yawdamp_ros.logs import LogError, McapLog, MessageDecoder
 from yawdamp_ros.runs import outputs
 from yawdamp_ros.runs.jumps import JUMP, jump_of
 from yawdamp_ros.runs.outputs import FLOAT64
+from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME
 from yawdamp_ros.runs.response_reader import LARGEST_VALUE
 from yawdamp_ros.stepping import Event, Response
 from yawdamp_ros.stepping.time_grid import SECOND
@@ -22,8 +23,6 @@ EVENTS = "events"
 """Topic of the vehicle's events."""
 ERROR = 2
 """Level of an event with which the motion ends."""
-RUN = "yawdamp_ros"
-"""Metadata that explain a run."""
 OF_UNITS = ("imu", "odom")
 """Topics of every unit that hold its motion."""
 
@@ -89,7 +88,7 @@ def read_response_recording(path: Path) -> Response:
         raise LogError(path, f"no run: expected joint_states, and imu and odom of every unit{why}")
     try:
         response = _response(messages, tuple(units), stamps)
-        happened = _events(events, log.metadata.get(RUN, {}))
+        happened = _events(events, log.metadata.get(METADATA_NAME, {}))
         return replace(
             response,
             extra=_extra(scalars, response),
@@ -145,6 +144,8 @@ def _extra(scalars: Mapping[str, list[Any]], response: Response) -> dict[str, Fl
         topics = [next((topic for topic in scalars if topic.endswith(f"/{name}")), "") for name in names]
         if output.type_name == FLOAT64 and not hasattr(response, output.name) and all(topics):
             columns = [[message.data for message in scalars[topic][:count]] for topic in topics]
+            # A truncated file may end within a sample.
+            columns = [column + [math.nan] * (count - len(column)) for column in columns]
             found[output.name] = _bounded(columns).T
     return found
 

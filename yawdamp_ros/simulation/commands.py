@@ -137,7 +137,7 @@ class Commands:
         return any(held.steps_since_command(step) is not None for held in self.held.values())
 
     def reset(self) -> None:
-        """Return to rest at the origin at the next step."""
+        """Return to the start at the next step."""
         self._reset = True
 
     def change(self, settings: SimParameters) -> None:
@@ -145,7 +145,7 @@ class Commands:
         for name, value in _limits(settings, self._grid).items():
             setattr(self.steering_input, name, value)
         speed = self.held["speed"]
-        if settings.speed is not None and settings.speed != self._settings.speed:
+        if settings.longitudinal_source == "parameter" and settings.speed not in {None, self._settings.speed}:
             speed.value = settings.speed
         elif settings.longitudinal_source != self._settings.longitudinal_source == "acceleration":
             speed.value = self._motion.speed  # nothing else demands it

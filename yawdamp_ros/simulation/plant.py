@@ -103,15 +103,16 @@ class Plant:
         SimulationError
             If the model does not take an input, or rejects its value.
         """
-        commands = self.commands
+        commands, steered = self.commands, self.settings.manoeuvre == "none"
         for name, value in inputs.items():
-            if name == "steering":
+            if name == "steering" and steered:
                 verdict = commands.steer(value)
             elif name in commands.held:
                 verdict = commands.demand(name, value)
             else:
-                known = ", ".join(("steering", *commands.held))
-                message = f"{name}: model {self.settings.model} does not take it; expected one of {known}"
+                known = ", ".join([*(["steering"] if steered else []), *commands.held])
+                taker = f"model {self.settings.model}" if name != "steering" else "a run with a manoeuvre"
+                message = f"{name}: {taker} does not take it; expected one of {known}"
                 raise SimulationError(message)
             if verdict not in ACCEPTED:
                 message = f"{name}: {value}: {verdict}"

@@ -85,7 +85,7 @@ class SimParameters:
         limits=(-FASTEST_REVERSE, HIGHEST_SPEED),
         dynamic=True,
         kind=float,
-        otherwise="the vehicle's own",
+        otherwise="`initial_speed`, or the vehicle's own",
     )
     longitudinal_source: str = _parameter(
         "parameter",

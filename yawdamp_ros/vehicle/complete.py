@@ -32,7 +32,7 @@ SOURCES: Mapping[str, str] = MappingProxyType(
 """Works behind the short names with which `Assumed.source` begins."""
 
 LIGHT_UNIT = 6000.0
-"""Mass up to which a towed unit counts as a dolly [kg]."""
+"""Mass up to which a towed unit with a rear hitch counts as a dolly [kg]."""
 
 
 class Assumed(NamedTuple):
@@ -70,8 +70,9 @@ class Default(NamedTuple):
 
 
 def is_dolly(unit: Unit) -> bool:
-    """Return whether a towed unit counts as a dolly, which carries no body."""
-    return unit.front_hitch is not None and unit.mass <= LIGHT_UNIT
+    """Return whether a light unit between two others counts as a dolly, which carries no body."""
+    between = unit.front_hitch is not None and unit.rear_hitch is not None
+    return between and unit.mass <= LIGHT_UNIT
 
 
 def _couples_roll(unit: Unit) -> bool:

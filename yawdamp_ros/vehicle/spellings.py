@@ -111,13 +111,16 @@ def canonical(data: Any, source: str) -> Any:  # noqa: ANN401 - of any file
     units = data.get("units") if isinstance(data, dict) else None
     if not isinstance(units, list) or not all(isinstance(unit, dict) for unit in units):
         return data
-    made = [_grounded(_from_centre(unit, f"units.{index}", source)) for index, unit in enumerate(units)]
+    made = [
+        _grounded(_from_centre(unit, f"units.{index}", source), f"units.{index}", source)
+        for index, unit in enumerate(units)
+    ]
     for key, axle in _axles(made):
         coefficient = axle.get("cornering_coefficient", 1.0)
         if isinstance(coefficient, str | bool | list | dict | None) or np.any(coefficient <= 0.0):
             problem = f"{coefficient!r}: expected a number above 0, cornering stiffness over load in 1/rad"
             raise VehicleError(source, f"{key}.cornering_coefficient", problem)
-    return {**data, "units": _stiffened(made)}
+    return {**data, "units": _stiffened(made, source)}
 
 
 def replaced(node: dict[str, Any], key: str) -> None:
@@ -175,7 +178,14 @@ def _from_centre(unit: dict[str, Any], key: str, source: str) -> dict[str, Any]:
         return rest
     if "cg_position" not in unit:
         raise VehicleError(source, f"{key}.cg_position", f"missing: positions are from the {origin}")
-    centre = unit["cg_position"]
+    try:
+        return _shifted(rest, unit["cg_position"])
+    except TypeError as error:
+        problem = "expected numbers for cg_position, hitches and positions"
+        raise VehicleError(source, f"{key}.positions_from", problem) from error
+
+
+def _shifted(rest: dict[str, Any], centre: Any) -> dict[str, Any]:  # noqa: ANN401 - a number, if all is well
     for name in ("front_hitch", "rear_hitch"):
         if name in rest:
             rest[name] = rest[name] - centre
@@ -191,26 +201,34 @@ def _from_centre(unit: dict[str, Any], key: str, source: str) -> dict[str, Any]:
     return rest
 
 
-def _grounded(unit: dict[str, Any]) -> dict[str, Any]:
+def _grounded(unit: dict[str, Any], key: str, source: str) -> dict[str, Any]:
     """Unit without its lifted axles."""
     axles = unit.get("axles")
-    if not isinstance(axles, list):
+    if not isinstance(axles, list) or not all(isinstance(axle, dict) for axle in axles):
         return unit
+    if any(axle.get("lifted") is True for axle in axles):
+        for place, axle in enumerate(axles):
+            if given := {"static_load", "tyre_load"} & set(axle):
+                problem = f"lifted: expected no {given.pop()} on this unit, for it is one with all axles down"
+                raise VehicleError(source, f"{key}.axles.{place}", problem)
     kept = [
-        {name: value for name, value in axle.items() if name != "lifted"} if isinstance(axle, dict) else axle
+        {name: value for name, value in axle.items() if name != "lifted"}
         for axle in axles
-        if not (isinstance(axle, dict) and axle.get("lifted") is True)
+        if axle.get("lifted") is not True
     ]
     return {**unit, "axles": kept}
 
 
-def _stiffened(units: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def _stiffened(units: Sequence[dict[str, Any]], source: str) -> list[dict[str, Any]]:
     """Units whose axles with a coefficient have the stiffness that it gives their static load."""
     if not any("cornering_coefficient" in axle for _, axle in _axles(units)):
         return list(units)
     try:
         carried = _static_loads(units)
-    except (KeyError, TypeError, ZeroDivisionError):  # not a vehicle: the schema reports it
+    except ZeroDivisionError as error:
+        problem = "cornering_coefficient needs the axles' loads: expected both steered axles and others"
+        raise VehicleError(source, "units.0.axles", problem) from error
+    except (KeyError, TypeError):  # not a vehicle: the schema reports it
         return list(units)
     made = []
     for unit, loads in zip(units, carried, strict=True):
