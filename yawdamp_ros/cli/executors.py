@@ -8,8 +8,6 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     BrokenExecutor,
     CancelledError,
-    Executor,
-    Future,
     ProcessPoolExecutor,
     ThreadPoolExecutor,
 )
@@ -82,7 +80,7 @@ def _pool(workers: int, *, threads: bool) -> Iterator[Mapped]:
         else ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_set_up_worker)
     )
     try:
-        yield partial(_in_order, executor, AHEAD * workers)
+        yield partial(_in_order, executor.submit, AHEAD * workers)
     except BrokenExecutor as error:
         message = "a worker process ended before its work did; what is written stands"
         raise UsageError(message) from error
@@ -92,12 +90,12 @@ def _pool(workers: int, *, threads: bool) -> Iterator[Mapped]:
 
 
 def _in_order(
-    executor: Executor, ahead: int, function: Callable[[Any], Any], items: Iterable[Any]
+    submit: Callable[..., Any], ahead: int, function: Callable[[Any], Any], items: Iterable[Any]
 ) -> Iterator[Any]:
     """Results of a function of each item, with a number of items under way."""
-    pending: deque[Future[Any]] = deque()
+    pending: deque[Any] = deque()
     for item in items:
-        pending.append(executor.submit(function, item))
+        pending.append(submit(function, item))
         if len(pending) > ahead:
             yield pending.popleft().result()
     while pending:
@@ -130,12 +128,10 @@ def _cluster(address: str) -> Iterator[Mapped]:
         )
         raise UsageError(message) from error
     with client:
-        executor = client.get_executor(pure=False)
         workers = sum(client.nthreads().values())
         try:
-            yield partial(_in_order, executor, AHEAD * max(workers, MOST_JOINING))
+            # Not the client's executor: it fetches answers unasked, and reports those that a stop cuts off.
+            yield partial(_in_order, partial(client.submit, pure=False), AHEAD * max(workers, MOST_JOINING))
         except (KilledWorker, CancelledError) as error:
             message = f"--scheduler: {address}: lost the work; what is written stands"
             raise UsageError(message) from error
-        finally:
-            executor.shutdown(wait=False)
