@@ -23,7 +23,7 @@ def of_commands(directory: Path) -> list[Row]:
     _took([*simulate, str(run)])
     commands = {
         "--help": ([*YAWDAMP, "--help"], HELP_LIMIT),
-        "assess --help": ([*YAWDAMP, "assess", "--help"], COMMAND_LIMIT),
+        "assess --help": ([*YAWDAMP, "assess", "--help"], HELP_LIMIT),
         "show": ([*YAWDAMP, "show"], COMMAND_LIMIT),
         "assess": ([*YAWDAMP, "assess"], COMMAND_LIMIT),
         "simulate": ([*simulate, str(directory / "run.csv")], COMMAND_LIMIT),

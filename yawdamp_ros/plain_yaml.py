@@ -3,10 +3,6 @@
 import warnings
 from typing import Any
 
-from ruamel.yaml import YAML
-from ruamel.yaml.composer import ComposerError
-from ruamel.yaml.error import MarkedYAMLError
-
 DEEPEST = 32
 """Levels of nesting."""
 LONGEST_NUMBER = 1000
@@ -34,6 +30,10 @@ def parse_yaml(text: str, most_values: int) -> Any:  # noqa: ANN401 - any YAML u
     ValueError
         If it is not valid; the message says where and why, not always in one line.
     """
+    # Imported here: help needs no file.
+    from ruamel.yaml import YAML  # noqa: PLC0415
+    from ruamel.yaml.error import MarkedYAMLError  # noqa: PLC0415
+
     # By ruamel.yaml: 1e5 is a number, and a key given twice is an error.
     yaml = YAML(typ="safe", pure=True)
     yaml.max_depth = DEEPEST
@@ -62,6 +62,8 @@ def parse_yaml(text: str, most_values: int) -> Any:  # noqa: ANN401 - any YAML u
 
 def _check_extent(root: Any, most_values: int) -> None:  # noqa: ANN401 - a node of ruamel.yaml
     """Refuse what aliases, of which a few lines can stand for billions of values, make too much of."""
+    from ruamel.yaml.composer import ComposerError  # noqa: PLC0415 - as above
+
     pending, count = [(root, 1)], 0
     while pending:
         node, depth = pending.pop()

@@ -1,42 +1,33 @@
 """Progress of commands, on standard error."""
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    Progress,
-    ProgressColumn,
-    Task,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
-from rich.text import Text
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 
-class _Done(ProgressColumn):
-    """Progress: amount done and, if known, the total."""
-
-    def __init__(self, unit: str) -> None:
-        super().__init__()
-        self._unit = unit
-        self._digits = 1 if unit == "s" else 0
-
-    def render(self, task: Task) -> Text:
-        total = "" if task.total is None else f" / {task.total:.{self._digits}f}"
-        return Text(f"{task.completed:.{self._digits}f}{total} {self._unit}")
-
-
-def progress_bar(unit: str = "s") -> Progress:
+def progress_bar(unit: str = "s") -> "Progress":
     """Progress bar on standard error; silent without a terminal."""
+    # Imported here: help shows no progress.
+    from rich.console import Console  # noqa: PLC0415
+    from rich.progress import (  # noqa: PLC0415
+        BarColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    from yawdamp_ros.cli.progress_column import Done  # noqa: PLC0415
+
     console = Console(stderr=True)
     # Needed besides `disable`: rich before 14 ends a disabled bar with an empty line.
     console.quiet = not console.is_terminal
     return Progress(
         TextColumn("{task.description}"),
         BarColumn(),
-        _Done(unit),
+        Done(unit),
         TimeElapsedColumn(),
         TimeRemainingColumn(),
         console=console,

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from rich.progress import Progress
 
 from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
@@ -53,6 +52,8 @@ from yawdamp_ros.stepping import Motion, Sample, TimeGrid, Verdict
 from yawdamp_ros.vehicle import Vehicle, vehicle_source
 
 if TYPE_CHECKING:
+    from rich.progress import Progress
+
     from yawdamp_ros.runs.encoder import Encoder
 
 DEFAULT_DURATION = 15.0
@@ -145,7 +146,7 @@ def _carry_out(run: Run, samples: int, stop: StopRequest) -> None:
 class _ProgressSink:
     """Shows the progress of a run with a known end."""
 
-    def __init__(self, bar: Progress, grid: TimeGrid, duration: float) -> None:
+    def __init__(self, bar: "Progress", grid: TimeGrid, duration: float) -> None:
         self._bar, self._grid = bar, grid
         self._task = bar.add_task("simulating", total=duration)
 

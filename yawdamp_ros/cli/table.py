@@ -3,11 +3,10 @@
 import re
 import sys
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from rich import box
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
+if TYPE_CHECKING:
+    from rich.table import Table
 
 PIPE_WIDTH = 200
 """Width of a table in a pipe or a file, which has none of its own."""
@@ -41,6 +40,12 @@ def print_table(
     width : int, optional
         Width in characters; the default is the terminal's, or `PIPE_WIDTH`.
     """
+    # Imported here: help prints no table.
+    from rich import box  # noqa: PLC0415
+    from rich.console import Console  # noqa: PLC0415
+    from rich.table import Table  # noqa: PLC0415
+    from rich.text import Text  # noqa: PLC0415
+
     if width is None and not sys.stdout.isatty():
         width = PIPE_WIDTH
     console = Console(width=width)
@@ -61,12 +66,14 @@ def print_table(
 
 
 def _fill(
-    table: Table,
+    table: "Table",
     columns: Sequence[str],
     rows: Sequence[Sequence[str]],
     prose: Sequence[int],
     widths: Sequence[int],
 ) -> None:
+    from rich.text import Text  # noqa: PLC0415 - as above
+
     for index, (column, width) in enumerate(zip(columns, widths, strict=True)):
         table.add_column(Text(column), justify="right" if index else "left", width=width, overflow="ellipsis")
     for row in rows:

@@ -4,12 +4,13 @@ import json
 import math
 from collections.abc import Iterator
 from functools import cache
-from typing import Any
-
-from jsonschema import Draft202012Validator, ValidationError
+from typing import TYPE_CHECKING, Any
 
 from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
+
+if TYPE_CHECKING:
+    from jsonschema import Draft202012Validator, ValidationError
 
 
 def check_schema(data: Any, source: str, schema: str = "vehicle.schema.json") -> None:  # noqa: ANN401
@@ -32,7 +33,7 @@ def check_schema(data: Any, source: str, schema: str = "vehicle.schema.json") ->
         raise _schema_error(errors[0], source)
 
 
-def _schema_error(error: ValidationError, source: str) -> VehicleError:
+def _schema_error(error: "ValidationError", source: str) -> VehicleError:
     key = ".".join(map(str, error.path))
     if error.validator == "additionalProperties":
         known = error.schema["properties"]
@@ -68,7 +69,9 @@ def _nameless(node: Any, key: str) -> Iterator[str]:  # noqa: ANN401
 
 
 @cache
-def _validator(schema: str) -> Draft202012Validator:
+def _validator(schema: str) -> "Draft202012Validator":
+    from jsonschema import Draft202012Validator  # noqa: PLC0415 - help needs none of it
+
     path = share_directory() / "config" / schema
     return Draft202012Validator(json.loads(path.read_text(encoding="utf-8")))
 
