@@ -3,12 +3,13 @@ import pytest
 from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, JointState
 
 from yawdamp_ros import load_vehicle
 from yawdamp_ros.runs.encoder import Encoder, Noise, message_class
 from yawdamp_ros.simulation import SimParameters, make_motion
-from yawdamp_ros.stepping import Motion, TimeGrid
+from yawdamp_ros.stepping import AppliedInput, Motion, TimeGrid
+from yawdamp_ros.vehicle import STANDARD_GRAVITY, complete
 
 NOISY = {"yaw_stddev": 0.01, "yaw_rate_stddev": 0.02, "lateral_acceleration_stddev": 0.3, "noise_seed": 7}
 
@@ -52,3 +53,36 @@ def test_orientation_is_the_yaw_and_noise_is_on_imu_alone() -> None:
         assert yaw(odometry.pose.pose.orientation) == pytest.approx(exact, abs=1e-13)
         assert yaw(imu.orientation) == pytest.approx(exact * np.exp(1j * drawn[unit]), abs=1e-13)
         assert imu.angular_velocity.z == sample.yaw_rate[unit]
+
+
+def test_axles_and_hitches_show_the_forces_that_balance_the_combination() -> None:
+    grid = TimeGrid.of(0.001, 0.01)
+    motion = make_motion(load_vehicle("interlink"), "nonlinear", 20.0, grid.step_size)
+    encodes = Encoder(motion, SimParameters(), grid, start_time=0)
+    motion.apply(AppliedInput(0, "acceleration", -2.0))
+    sample = motion.run([0.01] * 3000)
+    by_topic = dict(zip(encodes.types, encodes.encoded(sample).messages[0], strict=True))
+    units = motion.vehicle.units
+    wheels = [deserialize_message(by_topic[f"{unit.name}/axles"], JointState) for unit in units]
+    hitches = deserialize_message(by_topic["joint_states"], JointState)
+    assert hitches.name[:3] == ["steering", "articulation_1", "articulation_2"]
+    assert hitches.name[3:6] == ["hitch_1_x", "hitch_1_y", "hitch_1_z"]
+    last, behind = units[-1], wheels[-1]
+    assert behind.name[:4] == ["axle_1_left_x", "axle_1_left_y", "axle_1_left_z", "axle_1_right_x"]
+    assert list(behind.position[0:2]) == [
+        last.axles[0].position,
+        0.5 * complete(motion.vehicle).units[-1].axles[0].track_width,
+    ]
+    loads = [sum(message.effort[2::3]) for message in wheels]
+    weight = STANDARD_GRAVITY * sum(unit.mass for unit in units)
+    assert sum(loads) == pytest.approx(weight, rel=1e-3)
+    # What the last hitch carries, its wheels do not.
+    carried = hitches.effort[hitches.name.index("hitch_2_z")]
+    assert loads[-1] + carried == pytest.approx(STANDARD_GRAVITY * last.mass, rel=1e-3)
+    # Newton's second law of the last unit along itself and across, in its own frame.
+    ahead = complex(*hitches.effort[6:8]) * np.exp(1j * sample.articulation[-1])
+    found = ahead + complex(sum(behind.effort[0::3]), sum(behind.effort[1::3]))
+    surge = sample.extra["longitudinal_acceleration"][-1]
+    expected = last.mass * complex(surge, sample.lateral_acceleration[-1])
+    assert found == pytest.approx(expected, rel=0.02)
+    assert surge == pytest.approx(-2.0, abs=0.2)

@@ -73,7 +73,8 @@ def main(arguments: Sequence[str]) -> int:
     if growing := growth(motion.linearise()):
         print(f"warning: {growing}", file=sys.stderr)
     output = Path(options.output or default_run_directory(vehicle.name))
-    check_room(output, grid.samples_in(settings.duration) + 1, len(vehicle.units))
+    wheels = 2 * sum(len(unit.axles) for unit in vehicle.units) if "load" in motion.quantity_names else 0
+    check_room(output, grid.samples_in(settings.duration) + 1, len(vehicle.units), wheels)
     peaks = Peaks(len(vehicle.units))
     linear_range = LinearRange(vehicle.unit_names, Limits.warning(settings))
     encoder: Encoder | None = None

@@ -139,7 +139,7 @@ def run_panels(runs: Sequence[tuple[str, Response]]) -> list[Panel]:
             marks,
         )
         for output in outputs.OUTPUTS
-        if output.unit
+        if output.unit and output.of is not Of.WHEEL  # more curves than a panel can tell apart
     ]
     panels.append(Panel("x, m", "y (left), m", "paths of the centres of gravity, scales unequal", paths))
     return [panel for panel in panels if panel.curves]

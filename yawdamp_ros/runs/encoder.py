@@ -10,14 +10,14 @@ import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray
 from yawdamp_ros.runs.frames import Frames
-from yawdamp_ros.runs.outputs import FLOAT64, Output, available, quantity
+from yawdamp_ros.runs.outputs import FLOAT64, Of, Output, available, quantity, wheel_names
 from yawdamp_ros.runs.templates import Blank, Templates
 from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.stepping import Event, Motion, Sample, TimeGrid
 from yawdamp_ros.stepping.pose import half_turns
 from yawdamp_ros.stepping.stamps import Stamps
 from yawdamp_ros.stepping.time_grid import SECOND
-from yawdamp_ros.vehicle import STANDARD_GRAVITY
+from yawdamp_ros.vehicle import STANDARD_GRAVITY, complete
 
 TWISTS = ("rate of the pose", "small angles")
 """Kinds of twist in an odometry message; earlier recordings hold the linear model's, for small angles."""
@@ -180,6 +180,8 @@ class Encoder:
         self._own = {output.name: output.value for output in outputs if output.value is not None}
         self._columns: dict[str, int] = {}
         self._width = 0
+        self._quantity_names = frozenset(motion.quantity_names)
+        self._vehicle = motion.vehicle
         blanks = [
             self._blank(output, index, name)
             for output in outputs
@@ -298,17 +300,24 @@ class Encoder:
     def _blank(self, output: Output, index: int, name: str) -> Blank:
         """Message of a unit, a joint or the run, and the places of its numbers."""
         message = message_class(output.type_name)()
-        if prepare := self._PREPARATIONS.get(output.type_name):
+        if prepare := self._PREPARATIONS.get(output.name):
             prepare(self, message, name.rpartition("/")[0])
+        some = {path: name for path, name in output.some_fields.items() if name in self._quantity_names}
         places: dict[str, int] = {}
-        for path, wanted in output.fields.items():
-            if "{joint}" in path:
-                start = self._column(wanted, len(self._unit_names) - 1)
+        for path, wanted in {**output.fields, **some}.items():
+            if "{" not in path:
+                places[path] = index + self._column(wanted, len(output.names(self._unit_names)))
+            elif output.of is Of.RUN:
+                joints = len(self._unit_names) - 1
+                start = self._column(wanted, joints)
                 places |= {
-                    path.format(joint=joint): start + joint - 1 for joint in range(1, len(self._unit_names))
+                    path.format(joint=joint + 1, **_entries(joints + 1, joint)): start + joint
+                    for joint in range(joints)
                 }
             else:
-                places[path] = index + self._column(wanted, len(output.names(self._unit_names)))
+                wheels = [2 * len(unit.axles) for unit in self._vehicle.units]
+                start = self._column(wanted, sum(wheels)) + sum(wheels[:index])
+                places |= {path.format(**_entries(0, wheel)): start + wheel for wheel in range(wheels[index])}
         return Blank(message, places)
 
     def _column(self, name: str, width: int) -> int:
@@ -337,17 +346,37 @@ class Encoder:
     def _prepare_joint_states(self, message: Any, _: str) -> None:  # noqa: ANN401
         joints = range(1, len(self._unit_names))
         message.name = ["steering", *(f"articulation_{joint}" for joint in joints)]
+        if "hitch_force_x" in self._quantity_names:
+            message.name += [f"hitch_{joint}_{axis}" for joint in joints for axis in "xyz"]
         # Filled without a meaning: some readers reject the padding of a message that ends in an empty
         # float64[].
         message.position = message.velocity = message.effort = [0.0] * len(message.name)
 
+    def _prepare_axles(self, message: Any, unit: str) -> None:  # noqa: ANN401
+        message.header.frame_id = self._frame_prefix + unit
+        axles = complete(self._vehicle).units[self._unit_names.index(unit)].axles
+        message.name = [f"{wheel}_{axis}" for wheel in wheel_names(len(axles)) for axis in "xyz"]
+        message.position = [
+            place
+            for axle in axles
+            for side in (0.5, -0.5)
+            for place in (axle.position, side * (axle.track_width or 0.0), 0.0)
+        ]
+        message.velocity = message.effort = [0.0] * len(message.name)
+
     _PREPARATIONS: Mapping[str, Callable[["Encoder", Any, str], None]] = MappingProxyType(
         {
-            "sensor_msgs/msg/Imu": _prepare_imu,
-            "nav_msgs/msg/Odometry": _prepare_odometry,
-            "sensor_msgs/msg/JointState": _prepare_joint_states,
+            "imu": _prepare_imu,
+            "odom": _prepare_odometry,
+            "joint_states": _prepare_joint_states,
+            "axles": _prepare_axles,
         }
     )
+
+
+def _entries(first: int, place: int) -> dict[str, int]:
+    """Entries x, y and z of a hitch or a wheel in the arrays of a message."""
+    return {axis: first + 3 * place + index for index, axis in enumerate("xyz")}
 
 
 def _small_angles(sample: Sample) -> ComplexArray:

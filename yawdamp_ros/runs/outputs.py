@@ -16,18 +16,19 @@ FLOAT64 = "std_msgs/msg/Float64"
 
 
 class Of(Enum):
-    """Number of instances of an output: one for the run, or one for each unit or joint.
+    """Number of instances of an output: one for the run, or one for each unit, joint or wheel.
 
     Examples
     --------
     >>> from yawdamp_ros.runs import OUTPUTS, Of
     >>> [output.name for output in OUTPUTS if output.of is Of.JOINT]
-    ['articulation']
+    ['articulation', 'hitch_force_x', 'hitch_force_y', 'hitch_force_z']
     """
 
     RUN = "run"
     UNIT = "unit"
     JOINT = "joint"
+    WHEEL = "wheel"
 
 
 class Output(NamedTuple):
@@ -36,7 +37,8 @@ class Output(NamedTuple):
     Attributes
     ----------
     name : str
-        Topic and column; it follows ``<unit>/`` or precedes ``_<joint>`` if there are several.
+        Topic and column; it follows ``<unit>/`` or ``<unit>/axle_<axle>_<side>/`` or precedes ``_<joint>`` if
+        there are several.
     of : Of
     description : str
     unit : str
@@ -44,7 +46,10 @@ class Output(NamedTuple):
     type_name : str
         Message type; empty if the output is no topic.
     fields : mapping of str to str
-        Quantity by the path of its double in the message; ``{joint}`` is every joint.
+        Quantity by the path of its double in the message; ``{joint}`` is every joint; ``{x}``, ``{y}`` and
+        ``{z}`` are the three entries of every joint's hitch or every wheel of the unit.
+    some_fields : mapping of str to str
+        Further fields, where the motion has their quantities.
     held : bool
         Whether a value holds until the next; else it changes towards it.
     value : callable, optional
@@ -63,20 +68,32 @@ class Output(NamedTuple):
     unit: str = ""
     type_name: str = ""
     fields: Mapping[str, str] = MappingProxyType({})
+    some_fields: Mapping[str, str] = MappingProxyType({})
     held: bool = False
     value: Callable[[Sample], FloatArray] | None = None
 
-    def names(self, unit_names: Sequence[str]) -> list[str]:
-        """Topics, or columns, for these units."""
+    def names(self, unit_names: Sequence[str], axles: Sequence[int] = ()) -> list[str]:
+        """Topics, or columns, for these units; those of wheels for their numbers of axles."""
         if self.of is Of.UNIT:
             return [f"{unit}/{self.name}" for unit in unit_names]
         if self.of is Of.JOINT:
             return [f"{self.name}_{joint}" for joint in range(1, len(unit_names))]
+        if self.of is Of.WHEEL:
+            return [
+                f"{unit}/{wheel}/{self.name}"
+                for unit, count in zip(unit_names, axles, strict=False)
+                for wheel in wheel_names(count)
+            ]
         return [self.name]
 
     def values(self, sample: Sample) -> FloatArray:
         """Quantity of this output, in the shapes of `Sample`."""
         return quantity(sample, self.name) if self.value is None else self.value(sample)
+
+
+def wheel_names(axles: int) -> list[str]:
+    """Names of the wheels of a unit, from the front, left before right."""
+    return [f"axle_{axle}_{side}" for axle in range(1, axles + 1) for side in ("left", "right")]
 
 
 def scalar(name: str, of: Of, description: str, unit: str) -> Output:
@@ -117,13 +134,34 @@ OUTPUTS: tuple[Output, ...] = (
     Output(
         "joint_states",
         Of.RUN,
-        "steer angle and articulation angles, with their rates",
+        "steer angle and articulation angles, with their rates; nonlinear model: also `hitch_<joint>_x`, "
+        "`_y` and `_z`, whose effort is the force on the towed unit in the towing unit's frame, N",
         type_name="sensor_msgs/msg/JointState",
         fields={
             "position.0": "steering_angle",
             "velocity.0": "steering_rate",
             "position.{joint}": "articulation",
             "velocity.{joint}": "articulation_rate",
+        },
+        some_fields={
+            "effort.{x}": "hitch_force_x",
+            "effort.{y}": "hitch_force_y",
+            "effort.{z}": "hitch_force_z",
+        },
+    ),
+    Output(
+        "axles",
+        Of.UNIT,
+        "wheels, each as `axle_<axle>_<side>_x`, `_y` and `_z`: position in the unit's frame, m; velocity "
+        "is slip, x the share by which a braked wheel slides, y lateral slip; effort is force in the "
+        "wheel's frame, z the load, N",
+        type_name="sensor_msgs/msg/JointState",
+        fields={
+            "velocity.{x}": "slide",
+            "velocity.{y}": "lateral_slip",
+            "effort.{x}": "longitudinal_force",
+            "effort.{y}": "lateral_force",
+            "effort.{z}": "load",
         },
     ),
     scalar("yaw", Of.UNIT, "yaw", "rad"),
@@ -137,6 +175,14 @@ OUTPUTS: tuple[Output, ...] = (
         "1",
     ),
     Output("articulation", Of.JOINT, "articulation", "rad"),
+    Output("hitch_force_x", Of.JOINT, "hitch force forwards", "N"),
+    Output("hitch_force_y", Of.JOINT, "hitch force to the left", "N"),
+    Output("hitch_force_z", Of.JOINT, "hitch load", "N"),
+    Output("load", Of.WHEEL, "wheel load", "N"),
+    Output("lateral_slip", Of.WHEEL, "lateral slip", "1"),
+    Output("slide", Of.WHEEL, "share by which a braked wheel slides", "1"),
+    Output("longitudinal_force", Of.WHEEL, "longitudinal force of a wheel", "N"),
+    Output("lateral_force", Of.WHEEL, "lateral force of a wheel", "N"),
 )
 """Outputs. A new one is added here; if only some models have it, also to their `quantity_names`."""
 
@@ -160,8 +206,13 @@ def available(quantity_names: Iterable[str]) -> list[Output]:
     ]
 
 
-def columns(outputs: Iterable[Output], unit_names: Sequence[str]) -> list[tuple[str, Output, int]]:
-    """Columns of outputs in the order of a CSV file: name, output, and index of the unit or joint."""
+def columns(
+    outputs: Iterable[Output], unit_names: Sequence[str], axles: Sequence[int] = ()
+) -> list[tuple[str, Output, int]]:
+    """Columns of outputs in the order of a CSV file: name, output, and index of the unit, joint or wheel.
+
+    Wheels have columns only where the numbers of axles of the units are given.
+    """
     single = [output for output in outputs if output.unit]
     by_unit = [
         (output, index) for index in range(len(unit_names)) for output in single if output.of is Of.UNIT
@@ -175,8 +226,9 @@ def columns(outputs: Iterable[Output], unit_names: Sequence[str]) -> list[tuple[
             if output.of is Of.JOINT
             for index in range(len(unit_names) - 1)
         ),
+        *((output, index) for index in range(2 * sum(axles)) for output in single if output.of is Of.WHEEL),
     ]
-    return [(output.names(unit_names)[index], output, index) for output, index in order]
+    return [(output.names(unit_names, axles)[index], output, index) for output, index in order]
 
 
 def quantity(source: Sample | Response, name: str) -> FloatArray:

@@ -50,13 +50,15 @@ class ResponseCsv:
     def __init__(self, path: Path, motion: Motion, grid: TimeGrid) -> None:
         self._path = path
         self._grid = grid
-        self._columns = columns(available(motion.quantity_names), motion.vehicle.unit_names)
+        vehicle = motion.vehicle
+        axles = [len(unit.axles) for unit in vehicle.units]
+        self._columns = columns(available(motion.quantity_names), vehicle.unit_names, axles)
         try:
             self._file = path.open("w", encoding="utf-8", newline="")
         except OSError as error:
             raise LogError(path, f"cannot be written: {error.strerror}") from error
         self._writer = csv.writer(self._file, lineterminator="\n")
-        ground = ground_columns(motion.vehicle.unit_names)
+        ground = ground_columns(vehicle.unit_names)
         self._writer.writerow(["time", *(name for name, _, _ in self._columns), *ground])
 
     def write(self, sample: Sample) -> None:

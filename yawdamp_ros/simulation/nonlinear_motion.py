@@ -21,6 +21,12 @@ QUANTITIES: Mapping[str, Callable[[Outputs], FloatArray]] = {
     "longitudinal_acceleration": lambda outputs: outputs.acceleration[..., 0],
     "hitch_force_x": lambda outputs: outputs.hitch_force[..., 0],
     "hitch_force_y": lambda outputs: outputs.hitch_force[..., 1],
+    "hitch_force_z": lambda outputs: outputs.hitch_force[..., 2],
+    "load": lambda outputs: outputs.wheel_load,
+    "lateral_slip": lambda outputs: outputs.slip,
+    "slide": lambda outputs: outputs.slide,
+    "longitudinal_force": lambda outputs: outputs.longitudinal_force,
+    "lateral_force": lambda outputs: outputs.lateral_force,
 }
 """Quantities of a sample that only this motion has, each with its source in the outputs."""
 

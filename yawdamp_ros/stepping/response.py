@@ -39,7 +39,7 @@ class Response:
         Articulation angles [rad].
     x, y : ndarray, shape (m, n)
         Centres of gravity in the ground frame [m].
-    extra : mapping of str to ndarray, shape (m, n), (m, n - 1) or (m, 1)
+    extra : mapping of str to ndarray, shape (m, n), (m, n - 1), (m, 1) or (m, 2 a) of a axles
         Quantities that not every motion has, as `Sample.extra`.
     events : tuple of Event
         Events in order of time; a final event ends the run.

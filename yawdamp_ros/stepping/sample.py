@@ -116,7 +116,7 @@ class Sample(NamedTuple):
         ``psi_k - psi_(k+1)`` and its rate, rad and rad/s.
     inputs : tuple of AppliedInput
         Inputs that took effect since the previous sample, up to the last instant, in order.
-    extra : mapping of str to ndarray, shape (n,), (n - 1,) or ()
+    extra : mapping of str to ndarray, shape (n,), (n - 1,), () or (2 a,) of a axles
         Quantities that not every motion has, by the motion's `quantity_names`.
     events : tuple of Event
         Events since the previous sample.
