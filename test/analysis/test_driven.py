@@ -14,6 +14,7 @@ from yawdamp_ros.analysis.driven import (
     steer_tyre_friction_demand,
     tracking_ability_on_a_straight_path,
 )
+from yawdamp_ros.analysis.nonlinear_runs import drive_lane_change
 from yawdamp_ros.nonlinear import NonlinearDynamics, Outputs
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle, load_vehicle, static_loads
 
@@ -89,12 +90,21 @@ def test_a_truck_crabs_on_a_crossfall_by_the_slip_of_its_axles() -> None:
     assert tracking_ability_on_a_straight_path(TRUCK, 25.0) == pytest.approx(expected, abs=0.01)
 
 
-def test_load_transfer_grows_with_height() -> None:
-    low, high = (
-        load_transfer_ratio(load_vehicle("tractor_semitrailer", [f"units.1.cg_height={height}"]), 88.0 / 3.6)
-        for height in (1.2, 2.2)
+def test_load_transfer_is_the_moment_of_the_height_over_what_the_rear_axles_carry() -> None:
+    """Stiff springs at the rear axles alone, roll axis on the road: they bear all of m a h."""
+    speed, height, track, stiff = 88.0 / 3.6, 1.2, 1.9, 5e7
+    unit = TRUCK.units[0]
+    first, *rear = (replace(axle, track_width=track, roll_damping=0.1 * stiff) for axle in unit.axles)
+    axles = (
+        replace(first, roll_stiffness=1.0, roll_damping=0.0),
+        *(replace(axle, roll_stiffness=stiff) for axle in rear),
     )
-    assert 0.0 < low < high < 1.0
+    truck = replace(TRUCK, units=(replace(unit, axles=axles, cg_height=height, roll_axis_height=1e-3),))
+    acceleration = float(np.abs(drive_lane_change(truck, speed).outputs.acceleration[:, 0, 1]).max())
+    carried = sum(static_loads(truck)[0].axles[1:])
+    expected = 2.0 * unit.mass * acceleration * height / (track * carried)
+    assert 0.1 < expected < 0.9
+    assert load_transfer_ratio(truck, speed) == pytest.approx(expected, rel=0.02)
 
 
 def test_a_stop_on_a_split_road_takes_more_than_the_body_and_less_than_two_lanes() -> None:

@@ -166,6 +166,8 @@ def test_vehicles_stand_side_by_side(capsys: pytest.CaptureFixture[str]) -> None
         (["--srt", "high"], "argument --srt: invalid float value"),
         (["--vehicle", "bicycle"], "bicycle: no such vehicle"),
         (["--speed", "0"], "speed: 0.0: expected a speed in m/s"),
+        (["--jobs", "2"], "--jobs: it goes with --random"),
+        (["--seed", "2"], "--seed: it goes with --random"),
     ],
 )
 def test_wrong_use_is_one_line_and_status_2(

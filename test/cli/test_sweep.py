@@ -191,6 +191,7 @@ def test_file_of_another_sweep_is_refused(tmp_path: Path, capsys: pytest.Capture
         (["--vary", "speed=5:35:3"] * 2, "speed and speed: expected every key once"),
         (["--vary", "speed=5:35"], "speed=5:35: expected KEY=A:B:N"),
         (["--vary", "speed=5:35:3", "--range", "speed=5:35"], "--range: it goes with --random"),
+        (["--vary", "speed=5:35:3", "--seed", "1"], "--seed: it goes with --random"),
         (["--vary", "speed=0:35:3"], "speed: 0.0: expected a speed in m/s"),
         (["--vary", "units.7.mass=5:35:3"], "units.7.mass: no such key to set"),
         (["--random", "5"], "--random: expected at least one --range"),

@@ -11,6 +11,7 @@ from yawdamp_ros.vehicle import (
     load_vehicle,
     static_loads,
 )
+from yawdamp_ros.vehicle.complete import is_dolly
 
 
 @pytest.mark.parametrize("name", builtin_vehicles())
@@ -41,6 +42,15 @@ def test_fifth_wheels_couple_roll_and_drawbar_eyes_do_not() -> None:
     tractor, semitrailer, dolly, _ = complete(load_vehicle("a_double")).units
     assert (tractor.hitch_roll_stiffness, semitrailer.hitch_roll_stiffness) == (3.0e6, 0.0)
     assert dolly.hitch_roll_stiffness == 3.0e6
+
+
+def test_an_empty_trailer_between_two_others_is_no_dolly() -> None:
+    empty = load_vehicle("interlink", ["units.1.mass=4156"]).units[1]
+    short = load_vehicle("a_double", ["units.dolly.front_overhang=0.6"]).units[2]
+    assert not is_dolly(empty), "its axles are too far behind"
+    assert not is_dolly(short), "its body reaches beyond its eye"
+    assert is_dolly(load_vehicle("a_double").units[2])
+    assert complete(load_vehicle("interlink", ["units.1.mass=4156"])).units[1].front_overhang == 1.2
 
 
 def test_static_loads_are_given_for_all_axles_of_a_unit_or_none() -> None:

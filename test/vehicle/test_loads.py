@@ -175,14 +175,23 @@ def test_a_wrong_load_is_refused_in_one_line_that_names_it(vehicle: str, overrid
 
 def test_statics_needs_two_supports(tmp_path: Path) -> None:
     load = "units.0.load=[{mass: 5, position: 1}]"
-    truck = [f"units.0.axles.{index}.steered=true" for index in range(3)]
-    with pytest.raises(VehicleError, match=r"units.0.axles: every axle is steered: expected another one"):
-        load_vehicle("interlink_rated_tyres", [load, *truck])
+    rear = ["units.0.axles.0.steered=false", "units.0.axles.2.steered=true"]
+    with pytest.raises(VehicleError, match=r"units.0.axles: expected two supports that share the loads"):
+        load_vehicle("interlink_rated_tyres", [load, *rear])
     text = PAYLOAD.read_text(encoding="utf-8").replace("front_hitch: 4.645", "front_hitch: -9.0")
     other = tmp_path / "other.yaml"
     other.write_text(text, encoding="utf-8")
     with pytest.raises(VehicleError, match=r"units.2.axles: expected them behind the front hitch"):
         load_vehicle(other)
+
+
+def test_a_lead_unit_whose_axles_all_steer_rests_on_the_foremost_and_the_others() -> None:
+    units = files("interlink_rated_tyres")
+    units[0]["load"] = [{"mass": 1000.0, "position": 0.0}]
+    units[0]["axles"] = [axle | {"steered": True} for axle in units[0]["axles"]]  # type: ignore[attr-defined]
+    front, *others = added_axle_loads(units)[0]
+    assert others[0] == others[1]
+    assert front + sum(others) == pytest.approx(1000.0 * STANDARD_GRAVITY)
 
 
 def test_a_mass_that_is_changed_is_carried_by_statics() -> None:

@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.lane_change import run_lane_change, steer_axle_position
+from yawdamp_ros.analysis.lane_change import steer_axle_position
+from yawdamp_ros.analysis.nonlinear_runs import drive_lane_change
 from yawdamp_ros.analysis.swept_path import along_guide
 from yawdamp_ros.analysis.tractrix import low_speed_turn
-from yawdamp_ros.dynamics import linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.nonlinear import NonlinearDynamics, NonlinearError, Outputs, Settings, steady_turn
 from yawdamp_ros.nonlinear.layout import STEERING
@@ -141,15 +141,10 @@ def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
     >>> 0.0 < load_transfer_ratio(load_vehicle("single_vehicle"), 24.0) < 0.3
     True
     """
-    planned = run_lane_change(linear_model(vehicle, speed))
-    dynamics = NonlinearDynamics(vehicle)
-    count = EVERY * int(float(planned.time[-1]) / STEP / EVERY)
-    rows = np.tile(dynamics.inputs(speed=speed), (count, 1))
-    rows[:, STEERING] = np.interp(STEP * np.arange(count), planned.time, planned.steering_angle)
-    steps = dynamics.steps(dynamics.initial_state(speed), rows, STEP, every=EVERY)
-    if steps.rolled_over:
+    run = drive_lane_change(vehicle, speed)
+    if run.rolled_over:
         return 1.0
-    loads = dynamics.outputs(steps.states, rows[EVERY - 1 :: EVERY]).wheel_load
+    loads = run.outputs.wheel_load
     left, right = loads[:, 0::2], loads[:, 1::2]
     units = [unit for unit in range(len(vehicle.units)) for _ in vehicle.units[unit].axles]
     steered = [axle.steered for unit in vehicle.units for axle in unit.axles]

@@ -7,21 +7,17 @@ import numpy as np
 
 from yawdamp_ros.analysis.amplification import rearward_amplification
 from yawdamp_ros.analysis.errors import AnalysisError
-from yawdamp_ros.analysis.lane_change import run_lane_change, steer_axle_position
+from yawdamp_ros.analysis.lane_change import steer_axle_position
 from yawdamp_ros.analysis.measures import MEASURES
+from yawdamp_ros.analysis.nonlinear_runs import GRID, Run, drive, drive_lane_change
 from yawdamp_ros.analysis.offtracking import STEADY_RADIUS, high_speed_transient_offtracking
 from yawdamp_ros.analysis.severity import severity
 from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH, damping_of_peaks
-from yawdamp_ros.dynamics import linear_model
-from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.manoeuvres import Pulse
 from yawdamp_ros.nonlinear import NonlinearDynamics, NonlinearError, steady_turn
-from yawdamp_ros.nonlinear.layout import STEERING
-from yawdamp_ros.stepping import Response, TimeGrid
+from yawdamp_ros.stepping import Response
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, Vehicle
 
-GRID = TimeGrid.of(0.001, 0.01)
-"""Steps and samples of the runs."""
 PULSE_ANGLE = 0.05
 """Steer angle of the pulse [rad]: some 0.3 g of a laden combination at 80 km/h."""
 DECAY = 12.0
@@ -66,21 +62,16 @@ def nonlinear_measure(name: str, vehicle: Vehicle, speed: float | None = None) -
         raise AnalysisError(str(error)) from error
 
 
-def _drive(vehicle: Vehicle, speed: float, steering: FloatArray) -> Response:
-    """Motion from straight running, steered by an angle for each step [rad]."""
-    dynamics, every = NonlinearDynamics(vehicle), GRID.steps_per_sample
-    inputs = np.tile(dynamics.inputs(speed=speed), (len(steering), 1))
-    inputs[:, STEERING] = steering
-    run = dynamics.try_steps(dynamics.initial_state(speed), inputs[:-1], GRID.step_size, every=every)
-    if ended := run.rolled_over or run.diverged:
-        kind = "rollover" if run.rolled_over else "divergence"
-        message = f"{vehicle.name}: {kind} of {ended} at {GRID.seconds(run.taken):.2f} s"
+def _response(vehicle: Vehicle, run: Run) -> Response:
+    """Motion of a run that no rollover ends."""
+    if run.rolled_over:
+        message = f"{vehicle.name}: rollover of {run.rolled_over} at {run.time[-1]:.2f} s"
         raise AnalysisError(message)
-    outputs = dynamics.outputs(run.states, inputs[every::every])
+    outputs = run.outputs
     return Response(
         unit_names=vehicle.unit_names,
-        time=GRID.seconds(np.arange(every, len(steering), every)),
-        steering_angle=steering[every::every],
+        time=run.time,
+        steering_angle=run.steering,
         yaw=outputs.yaw,
         yaw_rate=outputs.yaw_rate,
         lateral_acceleration=outputs.acceleration[..., 1],
@@ -91,10 +82,7 @@ def _drive(vehicle: Vehicle, speed: float, steering: FloatArray) -> Response:
 
 
 def _lane_change(vehicle: Vehicle, speed: float) -> Response:
-    planned = run_lane_change(linear_model(vehicle, speed))
-    steps = GRID.samples_in(float(planned.time[-1])) * GRID.steps_per_sample
-    times = GRID.seconds(np.arange(steps + 1))
-    return _drive(vehicle, speed, np.interp(times, planned.time, planned.steering_angle))
+    return _response(vehicle, drive_lane_change(vehicle, speed))
 
 
 def _amplification(vehicle: Vehicle, speed: float) -> float:
@@ -113,7 +101,8 @@ def _yaw_damping(vehicle: Vehicle, speed: float) -> float:
     pulse = Pulse(PULSE_ANGLE, start=0.0, width=PULSE_WIDTH)
     steps = GRID.samples_in(PULSE_WIDTH + DECAY) * GRID.steps_per_sample
     times = GRID.seconds(np.arange(steps + 1))
-    response = _drive(vehicle, speed, np.array([pulse(time) for time in times.tolist()]))
+    run = drive(vehicle, speed, np.array([pulse(time) for time in times.tolist()]))
+    response = _response(vehicle, run)
     return float(damping_of_peaks(response.yaw_rate[response.time > PULSE_WIDTH, -1]))
 
 

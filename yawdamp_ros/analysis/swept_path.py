@@ -8,6 +8,7 @@ sources: Standards and Vehicle Assessment Rules, 2008.
 """
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -89,9 +90,7 @@ def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
     >>> frontal_swing_maximum_of_differences(load_vehicle("single_vehicle")) is None
     True
     """
-    turn = low_speed_turn(vehicle)
-    pairs = _pairs(turn)
-    return max((float((_front_swing(turn, b) - _front_swing(turn, a)).max()) for a, b in pairs), default=None)
+    return max((float((behind - ahead).max()) for ahead, behind in _swings(vehicle)), default=None)
 
 
 def frontal_swing_difference_of_maxima(vehicle: Vehicle) -> float | None:
@@ -113,11 +112,7 @@ def frontal_swing_difference_of_maxima(vehicle: Vehicle) -> float | None:
     >>> frontal_swing_difference_of_maxima(load_vehicle("interlink")) < 0.0  # the truck swings further
     True
     """
-    turn = low_speed_turn(vehicle)
-    pairs = _pairs(turn)
-    return max(
-        (float(_front_swing(turn, b).max() - _front_swing(turn, a).max()) for a, b in pairs), default=None
-    )
+    return max((float(behind.max() - ahead.max()) for ahead, behind in _swings(vehicle)), default=None)
 
 
 def tail_swing(vehicle: Vehicle) -> float:
@@ -184,10 +179,11 @@ def _stations(turn: Turn) -> FloatArray:
     return np.linspace(-back, float(turn.way[-1]), STATIONS)
 
 
-def _pairs(turn: Turn) -> list[tuple[int, int]]:
-    """Units with a body, each with the one behind it that has one."""
+def _swings(vehicle: Vehicle) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Front swings of each unit with a body and of the next one behind it that has one."""
+    turn = low_speed_turn(vehicle)
     bodies = [index for index, unit in enumerate(turn.geometry) if unit.body]
-    return list(pairwise(bodies))
+    return pairwise([_front_swing(turn, index) for index in bodies])
 
 
 def _front_swing(turn: Turn, unit: int) -> FloatArray:

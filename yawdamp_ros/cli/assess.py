@@ -107,6 +107,9 @@ def _many(options: argparse.Namespace, scheme: Scheme) -> int:
 
 def _check(options: argparse.Namespace) -> None:
     check_draws(options)
+    if options.jobs is not None and options.random is None:
+        message = "--jobs: it goes with --random"
+        raise UsageError(message)
     for name, endings in (("html", PAGES), ("pdf", (".pdf",)), ("xlsx", (".xlsx",))):
         path = getattr(options, name)
         if path is not None and Path(path).suffix.lower() not in endings:
@@ -242,5 +245,5 @@ def _add_many(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--range", action="append", default=[], metavar="KEY=A:B", help="range of a key; may be repeated"
     )
-    group.add_argument("--seed", type=int, default=0, help="the same seed draws the same (default: 0)")
+    group.add_argument("--seed", type=int, help="the same seed draws the same (default: 0)")
     group.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core)")

@@ -27,7 +27,7 @@ def run(options: argparse.Namespace, scheme: Scheme, name: str) -> int:
     study = SchemeStudy(
         tuple(Study(text, name, changes, model, keys, measure) for measure in scheme.measures)
     )
-    points = Draws([span for _, span in spans], options.random, options.seed)
+    points = Draws([span for _, span in spans], options.random, options.seed or 0)
     study.check(points)
     gathered = []
     with progress_bar("vehicles") as bar:
@@ -51,7 +51,7 @@ def _record(name: str, scheme: Scheme, options: argparse.Namespace, share: Share
         "scheme": scheme.name,
         "level": options.level,
         "count": share.count,
-        "seed": options.seed,
+        "seed": options.seed or 0,
         "meeting": share.meeting,
         "reaching": share.reaching,
         "failing": share.failing,

@@ -29,7 +29,8 @@ def check_draws(options: argparse.Namespace) -> None:
             "--range: it goes with --random": options.range and not drawn,
             "--random: expected at least one --range KEY=A:B": drawn and not options.range,
             f"--random: {options.random}: expected a whole number, 1 or more": drawn and options.random < 1,
-            f"--seed: {options.seed}: expected a whole number, 0 or more": options.seed < 0,
+            "--seed: it goes with --random": options.seed is not None and not drawn,
+            f"--seed: {options.seed}: expected a whole number, 0 or more": (options.seed or 0) < 0,
             f"--jobs: {options.jobs}: expected a whole number, 1 or more": options.jobs is not None
             and options.jobs < 1,
             f"--range: {' and '.join(keys)}: expected every key once": len(set(keys)) < len(keys),

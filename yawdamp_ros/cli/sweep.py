@@ -141,8 +141,8 @@ def _plan(options: argparse.Namespace) -> Plan:
         points: Points = Grid([axis.values for axis in axes])
         drawn: dict[str, object] = {"vary": options.vary}
     else:
-        points = Draws([span for _, span in spans], options.random, options.seed)
-        drawn = {"range": options.range, "random": options.random, "seed": options.seed}
+        points = Draws([span for _, span in spans], options.random, options.seed or 0)
+        drawn = {"range": options.range, "random": options.random, "seed": options.seed or 0}
     return Plan(study, points, {**asdict(study), **drawn}, axes)
 
 
@@ -214,7 +214,7 @@ def _parser() -> argparse.ArgumentParser:
     group.add_argument(
         "--range", action="append", default=[], metavar="KEY=A:B", help="range of a key; may be repeated"
     )
-    group.add_argument("--seed", type=int, default=0, help="the same seed draws the same (default: 0)")
+    group.add_argument("--seed", type=int, help="the same seed draws the same (default: 0)")
     group = parser.add_argument_group("what is computed")
     group.add_argument("--measure", choices=STUDIED, default=STABILITY, metavar="M", help=", ".join(STUDIED))
     group.add_argument(

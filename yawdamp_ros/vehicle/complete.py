@@ -32,7 +32,9 @@ SOURCES: Mapping[str, str] = MappingProxyType(
 """Works behind the short names with which `Assumed.source` begins."""
 
 LIGHT_UNIT = 6000.0
-"""Mass up to which a towed unit with a rear hitch counts as a dolly [kg]."""
+"""Mass up to which a towed unit with a rear hitch can be a dolly [kg]."""
+LONGEST_DRAWBAR = 6.0
+"""Distance from the front hitch to the middle of the axles up to which it can be one [m]."""
 
 
 class Assumed(NamedTuple):
@@ -70,9 +72,15 @@ class Default(NamedTuple):
 
 
 def is_dolly(unit: Unit) -> bool:
-    """Return whether a light unit between two others counts as a dolly, which carries no body."""
-    between = unit.front_hitch is not None and unit.rear_hitch is not None
-    return between and unit.mass <= LIGHT_UNIT
+    """Return whether a unit between two others counts as a dolly, which carries no body.
+
+    A dolly is light and short, and nothing of it reaches beyond its eye: an empty trailer is as light, but
+    longer, or its file gives the overhang of its body.
+    """
+    if unit.front_hitch is None or unit.rear_hitch is None or unit.mass > LIGHT_UNIT:
+        return False
+    drawbar = unit.front_hitch - sum(axle.position for axle in unit.axles) / len(unit.axles)
+    return drawbar <= LONGEST_DRAWBAR and not unit.front_overhang
 
 
 def _couples_roll(unit: Unit) -> bool:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from yawdamp_ros.files import read_text
 from yawdamp_ros.share import share_directory
 from yawdamp_ros.vehicle.errors import VehicleError
-from yawdamp_ros.vehicle.loads import added_axle_loads, loaded, static_load
+from yawdamp_ros.vehicle.loads import added_axle_loads, axle_groups, centre, loaded, static_load
 from yawdamp_ros.vehicle.model import Axle, Unit, Vehicle
 from yawdamp_ros.vehicle.plausibility import check_plausible, warning_lines
 from yawdamp_ros.vehicle.shape import GROUND_FRAME, hitch_frame, steered_axle_link
@@ -508,14 +508,13 @@ def _tyres_stiffness(axle: dict[str, Any], added: Any, key: str, source: str) ->
 
 def _check_supports(units: Sequence[dict[str, Any]], source: str) -> None:
     """Refuse units without two supports for statics."""
-    steered = [axle.get("steered") is True for axle in units[0]["axles"]]
-    if all(steered):
+    front, rear = axle_groups(units[0], towed=False)
+    if not front or np.any(centre(units[0], front) <= centre(units[0], rear)):
         raise VehicleError(
-            source, "units.0.axles", "every axle is steered: expected another one that shares the loads"
+            source, "units.0.axles", "expected two supports that share the loads, the steered axles in front"
         )
     for index, unit in enumerate(units[1:], 1):
-        centre = sum(axle["position"] for axle in unit["axles"]) / len(unit["axles"])
-        if np.any(unit["front_hitch"] <= centre):
+        if np.any(unit["front_hitch"] <= centre(unit, range(len(unit["axles"])))):
             raise VehicleError(
                 source,
                 f"units.{index}.axles",

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from yawdamp_ros.vehicle.model import STANDARD_GRAVITY
+from yawdamp_ros.vehicle.statics import support_groups
 
 Number = Any
 """A float, or an array that holds one for each vehicle of a stack: the formulas are the same."""
@@ -71,9 +72,9 @@ def added_axle_loads(units: Sequence[dict[str, Any]]) -> list[list[Number]]:
         forces = [(STANDARD_GRAVITY * load["mass"], load["position"]) for load in unit.get("load", ())]
         if "rear_hitch" in unit:
             forces.append((weight, unit["rear_hitch"]))
-        front, rear = _supports(unit, towed=index > 0)
-        ahead = unit["front_hitch"] if index else _centre(unit, front)
-        behind = _centre(unit, rear)
+        front, rear = axle_groups(unit, towed=index > 0)
+        ahead = unit["front_hitch"] if index else centre(unit, front)
+        behind = centre(unit, rear)
         total = sum(force for force, _ in forces)
         on_rear = sum(force * (ahead - position) for force, position in forces) / (ahead - behind)
         weight = total - on_rear
@@ -109,14 +110,13 @@ def static_load(axle: dict[str, Any], added: Number) -> Number | None:
     return None
 
 
-def _supports(unit: dict[str, Any], *, towed: bool) -> tuple[list[int], list[int]]:
-    """Axles of the two groups that a unit rests on; a towed one has its hitch in place of the first."""
-    everything = list(range(len(unit["axles"])))
-    if towed:
-        return [], everything
-    steered = [index for index in everything if unit["axles"][index].get("steered") is True]
-    return steered, [index for index in everything if index not in steered]
+def axle_groups(unit: dict[str, Any], *, towed: bool) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Axles of the front and of the rear support of a unit of a vehicle file, as `support_groups`."""
+    positions = [axle["position"] for axle in unit["axles"]]
+    steered = [axle.get("steered") is True for axle in unit["axles"]]
+    return support_groups(positions, steered, towed=towed)
 
 
-def _centre(unit: dict[str, Any], group: Sequence[int]) -> Number:
+def centre(unit: dict[str, Any], group: Sequence[int]) -> Number:
+    """Middle of some axles of a unit of a vehicle file [m]."""
     return sum(unit["axles"][index]["position"] for index in group) / len(group)

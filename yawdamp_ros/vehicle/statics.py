@@ -1,6 +1,9 @@
 """Loads of a vehicle at rest on a level road."""
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from yawdamp_ros.vehicle.model import STANDARD_GRAVITY, Unit, Vehicle
 
@@ -73,22 +76,54 @@ def supports(unit: Unit) -> Supports:
     >>> found.front_axles, found.rear_axles
     ((0,), (1, 2))
     """
-    every = tuple(range(len(unit.axles)))
     positions = [axle.position for axle in unit.axles]
 
     def centre(group: tuple[int, ...]) -> float:
         return sum(positions[place] for place in group) / len(group)
 
+    front, rear = support_groups(
+        positions, [axle.steered for axle in unit.axles], towed=unit.front_hitch is not None
+    )
     if unit.front_hitch is not None:
-        rear = centre(every)
-        return Supports(max(unit.front_hitch, rear), rear, (), every)
-    steered = tuple(place for place in every if unit.axles[place].steered)
-    if len(steered) in {0, len(every)}:
-        steered = (max(every, key=lambda place: positions[place]),)
-    others = tuple(place for place in every if place not in steered)
-    if not others or centre(steered) <= centre(others):
+        return Supports(max(unit.front_hitch, centre(rear)), centre(rear), (), rear)
+    if not front or centre(front) <= centre(rear):
+        every = tuple(range(len(unit.axles)))
         return Supports(centre(every), centre(every), (), every)
-    return Supports(centre(steered), centre(others), steered, others)
+    return Supports(centre(front), centre(rear), front, rear)
+
+
+def support_groups(
+    positions: Sequence[Any], steered: Sequence[bool], *, towed: bool
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Axles of the front and of the rear support of a unit.
+
+    Parameters
+    ----------
+    positions : sequence of float
+        Position of each axle [m], or one for each vehicle of a stack.
+    steered : sequence of bool
+        Whether each axle is steered.
+    towed : bool
+        Whether the unit has a front hitch, which then is its front support.
+
+    Returns
+    -------
+    front, rear : tuple of int
+        The front is empty for a towed unit, and for one with a single axle.
+
+    Examples
+    --------
+    >>> support_groups([3.0, -1.0, -2.0], [True, False, False], towed=False)
+    ((0,), (1, 2))
+    """
+    every = tuple(range(len(positions)))
+    if towed:
+        return (), every
+    front = tuple(place for place in every if steered[place])
+    if len(front) in {0, len(every)}:
+        front = (max(every, key=lambda place: np.mean(positions[place])),)
+    rear = tuple(place for place in every if place not in front)
+    return (front, rear) if rear else ((), every)
 
 
 def static_loads(vehicle: Vehicle, *, given: bool = True) -> tuple[StaticLoads, ...]:
