@@ -99,6 +99,18 @@ def test_a_rejected_command_warns_once_with_its_key() -> None:
     assert told(looks(IN_ORDER, rejected, rejected)["steering"])[0] == b"\0"
 
 
+def test_an_input_whose_controller_fell_silent_warns_until_it_comes_again() -> None:
+    silent = with_changes(
+        inputs={"acceleration": InputReading(-1.0, 0.7, {Verdict.ACCEPTED: 3}, timed_out=True)}
+    )
+    inputs = looks(IN_ORDER, silent, silent)["inputs"]
+    assert told(inputs) == (b"\1", "timed_out")
+    assert values(inputs)["problems"] == "acceleration_timed_out"
+    assert inputs.message == "acceleration: no command for longer than steering_timeout"
+    heard = with_changes(inputs={"acceleration": InputReading(-1.0, 0.1, {Verdict.ACCEPTED: 4})})
+    assert told(looks(silent, heard)["inputs"]) == (b"\0", "commanded")
+
+
 def test_the_speed_s_problems_are_told_apart_from_the_steering_s() -> None:
     reading = InputReading(20.0, 0.25, {Verdict.ACCEPTED: 1, Verdict.BACKWARDS: 1})
     backwards = with_changes(inputs={"speed": reading})

@@ -42,7 +42,7 @@ def test_a_rig_waits_brakes_stands_and_backs_through_topics(graph: Graph, articu
     first = graph.messages("/truck/odom")[0]
     assert (first.pose.pose.position.x, first.pose.pose.position.y) == (10.0, 5.0)
     if articulation != "[0.0]":
-        assert list(graph.messages("/joint_states")[0].position) == [0.0, 0.1, 0.05]
+        assert list(graph.messages("/joint_states")[0].position[:3]) == [0.0, 0.1, 0.05]
     topics = ("acceleration", "gear", "trailer_2/brake", "speed")
     publishers = {name: graph.publisher(Float64, f"/{name}") for name in topics}
     publishers["acceleration"].publish(Float64(data=-3.0))
@@ -64,7 +64,7 @@ def test_a_rig_waits_brakes_stands_and_backs_through_topics(graph: Graph, articu
     status, _, errors = stop(process)
     assert "stopped at" not in errors
     assert status == 0
-    assert "speed: 9.0: rejected, longitudinal_source names another source" in errors
+    assert "speed: 9.0: rejected, longitudinal_source or friction_file names another source" in errors
     poses = graph.messages("/truck/odom")
     time = np.array([seconds(each) for each in poses])
     time -= time[0]

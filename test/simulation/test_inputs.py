@@ -6,12 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from runs import recorded
 from yawdamp_ros.cli.simulate import main
 from yawdamp_ros.runs.resimulation import Resimulation
 from yawdamp_ros.runs.response_recording import read_response_recording
 from yawdamp_ros.simulation import Commands, Run, SimParameters, SimulationError, make_motion
+from yawdamp_ros.simulation.friction_route import FrictionRoute
 from yawdamp_ros.simulation.inputs import INPUTS, held_inputs
 from yawdamp_ros.simulation.plant import Plant
+from yawdamp_ros.simulation.steering_messages import LongitudinalDemand
 from yawdamp_ros.stepping import Sample, TimeGrid, Verdict
 from yawdamp_ros.vehicle import load_vehicle
 
@@ -155,6 +158,68 @@ def test_a_rollover_is_recorded_whatever_else_acts(tmp_path: Path) -> None:
     options = ["--vehicle", "a_double", "--model", "nonlinear", "--log", str(tmp_path / "log.csv")]
     assert main([*options, "--output", str(recorded)]) == 1
     assert read_response_recording(recorded).events[-1].name == "rollover"
+
+
+def test_a_speed_of_the_steering_is_approached_at_its_rate_and_silence_is_told() -> None:
+    commands, run, last = driven("steering")
+    assert commands.demand("speed", 3.0) is Verdict.NOT_SOURCE
+    assert commands.follow(LongitudinalDemand(10.0, rate=2.0)) == ("speed", 10.0, Verdict.ACCEPTED)
+    commands.demand("friction", 0.5)
+    for period in range(50):
+        run.advance()
+        (applied,) = [each.value for each in last.sample.inputs if each.name == "speed"]
+        assert applied == pytest.approx(15.0 - 0.02 * (period + 1))
+    assert commands.silent == []
+    for _ in range(750):
+        run.advance()
+    assert run.motion.speed == pytest.approx(10.0, abs=0.1)
+    assert commands.silent == ["speed"]  # a friction is said once
+    assert commands.follow(LongitudinalDemand(10.0, acceleration=-1.0))[0] == "acceleration"
+    assert commands.follow(LongitudinalDemand(float("nan")))[2] is Verdict.NOT_FINITE
+    run.advance(100)
+    assert run.motion.speed == pytest.approx(9.0, abs=0.2)
+    assert commands.silent == ["acceleration"]
+
+
+def test_friction_follows_the_distance_and_the_run_and_its_start_are_repeated(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    route, output = tmp_path / "ice.csv", tmp_path / "run"
+    route.write_text("distance,friction\n15,0.05\n30,0.8\n")
+    options = ["--model", "nonlinear", "--manoeuvre", "step", "--amplitude", "0.02", "--start", "0.2"]
+    options += ["--friction-file", str(route), "--duration", "3", "--output", str(output)]
+    options += ["--initial-speed", "12", "--speed", "14"]
+    start = ["--initial-pose", "10", "-5", "1.5", "--initial-articulation", "0.1", "0.05"]
+    assert main([*options, *start]) == 0
+    drive = read_response_recording(output)
+    assert (drive.x[0, 0], drive.y[0, 0], drive.yaw[0, 0]) == (10.0, -5.0, pytest.approx(1.5))
+    assert drive.articulation[0].tolist() == [0.1, 0.05]
+    way = np.cumsum(np.hypot(np.diff(drive.x[:, 0]), np.diff(drive.y[:, 0])))
+    applied = recorded(output)["/friction"]
+    assert [message.data for _, message in applied] == [0.05, 0.8]
+    for (_, distance), (stamp, _) in zip([(0, 15.0), (0, 30.0)], applied, strict=True):
+        assert way[np.searchsorted(drive.time, stamp / 1e9) - 1] == pytest.approx(distance, abs=0.4)
+    again = Resimulation(output)
+    list(again.compare())
+    assert (again.bit_identical, again.agrees) == (True, True)
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    "text, told",
+    [
+        ("distance,mu\n0,0.5\n", "line 1: columns distance, mu: expected distance and friction"),
+        ("distance,friction\n0,0.5\n5,slick\n", "line 3: friction: 'slick': expected a finite number"),
+        ("distance,friction\n0,0.5\n5,3\n", "line 3: friction: 3: expected a number from 0.01 to 2"),
+        ("friction,distance\n0.5,4\n0.6,4\n", "line 3: distance: 4: expected more than 4"),
+        ("distance,friction\n0\n", "line 2: 1 values: expected 2"),
+        ("distance,friction\n", "no rows below the column names"),
+    ],
+)
+def test_a_friction_file_s_mistake_is_told_with_line_and_value(tmp_path: Path, text: str, told: str) -> None:
+    (tmp_path / "ice.csv").write_text(text)
+    with pytest.raises(SimulationError, match=f"friction_file: .*ice.csv: {told}"):
+        FrictionRoute.read(tmp_path / "ice.csv")
 
 
 def test_a_manoeuvre_leaves_no_steering_to_command() -> None:

@@ -47,6 +47,7 @@ class _Once(argparse.Action):
 
 RUN_SETTINGS = (
     "longitudinal_source",
+    "friction_file",
     "max_steering_angle",
     "steering_timeout",
     "on_steering_timeout",
@@ -56,6 +57,13 @@ RUN_SETTINGS = (
     "max_articulation",
 )
 """Settings of `SimParameters` for the longitudinal motion, the steering and the limits of a run."""
+
+START_SETTINGS: tuple[tuple[str, str | tuple[str, ...], str | int | None], ...] = (
+    ("initial_speed", "M/S", None),
+    ("initial_pose", ("X", "Y", "YAW"), 3),
+    ("initial_articulation", "RAD", "+"),
+)
+"""Settings of the start, with the names and the number of their values."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -154,12 +162,13 @@ def add_run_settings(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("steering and limits")
     for name in RUN_SETTINGS:
         declared = SimParameters.__dataclass_fields__[name]
+        default = "none" if declared.default == "" else declared.default
         group.add_argument(
             f"--{name.replace('_', '-')}",
             type=type(declared.default),
             choices=declared.metadata["choices"] or None,
             metavar=None if declared.metadata["choices"] else "X",
-            help=f"{declared.metadata['description']}; default: {declared.default}",
+            help=f"{declared.metadata['description']}; default: {default}",
         )
 
 
@@ -171,7 +180,38 @@ def run_settings(options: argparse.Namespace) -> dict[str, Any]:
     UsageError
         If one is out of its range.
     """
-    given = {name: value for name in RUN_SETTINGS if (value := getattr(options, name)) is not None}
+    return _given(options, RUN_SETTINGS)
+
+
+def add_start_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the start, as the parameters of the node."""
+    group = parser.add_argument_group("start")
+    for name, metavar, count in START_SETTINGS:
+        declared = SimParameters.__dataclass_fields__[name].metadata
+        otherwise = f"; default: {declared['otherwise']}" if declared["otherwise"] else ""
+        group.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=float,
+            nargs=count,
+            metavar=metavar,
+            help=declared["description"] + otherwise,
+        )
+
+
+def start_settings(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the given options of the start, by field name.
+
+    Raises
+    ------
+    UsageError
+        If the speed is out of its range.
+    """
+    return _given(options, [name for name, _, _ in START_SETTINGS])
+
+
+def _given(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
+    """Return the given ones of some settings, each within its range."""
+    given = {name: value for name in names if (value := getattr(options, name)) is not None}
     for name, value in given.items():
         limits = SimParameters.__dataclass_fields__[name].metadata["limits"]
         if limits and not limits[0] <= value <= limits[1]:

@@ -21,11 +21,13 @@ from yawdamp_ros.cli.options import (
     add_format_option,
     add_manoeuvre_options,
     add_run_settings,
+    add_start_options,
     add_vehicle_options,
     chosen_name,
     chosen_vehicle,
     manoeuvre_settings,
     run_settings,
+    start_settings,
 )
 from yawdamp_ros.cli.peaks_table import peaks_record, print_events, print_peaks
 from yawdamp_ros.cli.ros import require_ros
@@ -37,7 +39,6 @@ from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.runs import ResponseCsv, default_run_directory, make_run_directory
 from yawdamp_ros.simulation import (
     MODELS,
-    SAMPLES_AT_ONCE,
     Commands,
     Limits,
     LinearRange,
@@ -68,7 +69,7 @@ def main(arguments: Sequence[str]) -> int:
     vehicle = chosen_vehicle(options)
     log, settings = _settings(options, vehicle)
     grid = TimeGrid.of(settings.step_size, _sample_period(options))
-    motion = make_motion(vehicle, settings.model, None, grid.step_size)
+    motion = make_motion(vehicle, settings.model, settings.first_speed, grid.step_size, settings.first_pose)
     commands = Commands(settings, grid, motion, *_played(log, options, motion))
     if growing := growth(motion.linearise()):
         print(f"warning: {growing}", file=sys.stderr)
@@ -88,7 +89,7 @@ def main(arguments: Sequence[str]) -> int:
         with progress_bar() as bar:
             sinks = [sink, peaks, linear_range, _ProgressSink(bar, grid, settings.duration)]
             with closing(Run(motion, grid, commands, sinks, Limits.of(settings))) as run:
-                _carry_out(run, grid.samples_in(settings.duration), stop)
+                _carry_out(run, grid.samples_in(settings.duration), commands.samples_at_once, stop)
                 if run.unwritten and encoder is not None:
                     encoder.tell(run.unwritten)
     if options.format == "json":
@@ -133,12 +134,12 @@ def _played(
     return (log.times, log.angles), {name: each for name, each in inputs.items() if name not in left}
 
 
-def _carry_out(run: Run, samples: int, stop: StopRequest) -> None:
+def _carry_out(run: Run, samples: int, at_once: int, stop: StopRequest) -> None:
     run.start()
-    for begin in range(0, samples, SAMPLES_AT_ONCE):
+    for begin in range(0, samples, at_once):
         if run.stopped is not None:
             return
-        run.advance(min(SAMPLES_AT_ONCE, samples - begin))
+        run.advance(min(at_once, samples - begin))
         if stop.requested:
             # Raised while the sinks are open, so that the simulated part is kept in a finished file.
             raise KeyboardInterrupt
@@ -169,8 +170,8 @@ def _settings(options: argparse.Namespace, vehicle: Vehicle) -> tuple[SteeringLo
         message = f"--duration: {duration}: expected a time in s, 0 or more"
         raise UsageError(message)
     period = _sample_period(options)
-    given: dict[str, Any] = manoeuvre_settings(options) | run_settings(options)
-    return log, SimParameters(
+    given: dict[str, Any] = manoeuvre_settings(options) | run_settings(options) | start_settings(options)
+    settings = SimParameters(
         vehicle=chosen_name(options),
         vehicle_overrides=options.set or [""],
         model=options.model or DEFAULT_MODEL,
@@ -185,6 +186,14 @@ def _settings(options: argparse.Namespace, vehicle: Vehicle) -> tuple[SteeringLo
         record_directory=options.output or "",
         **given,
     )
+    if settings.longitudinal_source == "steering":
+        message = (
+            "--longitudinal-source: steering: of messages on a graph alone; expected speed or acceleration"
+        )
+        raise UsageError(message)
+    if problem := settings.start_problem() or settings.model_problem():
+        raise UsageError("--" + problem.replace("_", "-", 1))
+    return log, settings
 
 
 def _log(options: argparse.Namespace) -> SteeringLog | None:
@@ -247,6 +256,7 @@ def _parser() -> Parser:
     add_manoeuvre_options(parser)
     add_log_options(parser)
     add_run_settings(parser)
+    add_start_options(parser)
     add_format_option(parser)
     parser.add_argument("--log", metavar="FILE", help="steering log, in place of a manoeuvre")
     run = parser.add_argument_group("run")

@@ -33,11 +33,14 @@ class InputReading(NamedTuple):
         Simulated time since the last one [s]; None before the first.
     counts : mapping of Verdict to int
         Values so far by verdict.
+    timed_out : bool
+        Whether a controller that repeated it has fallen silent.
     """
 
     value: float | None
     age: float | None
     counts: Mapping[Verdict, int]
+    timed_out: bool = False
 
 
 class Readings(NamedTuple):
@@ -217,13 +220,18 @@ class Diagnosis:
             ):
                 grown.append(f"{name} {VERDICT_SENTENCES[verdict]}")
                 problems.append(f"{name}_{verdict}")
+        silent = [name for name, reading in now.inputs.items() if reading.timed_out]
+        troubles += [f"{name}: no command for longer than steering_timeout" for name in silent]
+        problems += [f"{name}_timed_out" for name in silent]
         troubles += [f"since the last look: {'; '.join(grown)}"] if grown else []
         commanded = any(reading.age is not None for reading in now.inputs.values())
+        state = InputState.COMMANDED if commanded else InputState.NO_COMMAND
+        state = InputState.TIMED_OUT if silent else state
         return self._status(
             "inputs",
             WARN if troubles else OK,
             "; ".join(troubles) or ("commanded" if commanded else "no command yet"),
-            state=InputState.COMMANDED if commanded else InputState.NO_COMMAND,
+            state=state,
             problems=",".join(dict.fromkeys(problems)),
             **told,
         )

@@ -18,14 +18,12 @@ from yawdamp_ros.nodes.neighbours import Neighbours
 from yawdamp_ros.nodes.parameters import changed
 from yawdamp_ros.nodes.sim import Simulator
 from yawdamp_ros.nodes.states import RecorderState, Reply, answer
-from yawdamp_ros.nodes.subscriptions import STEADY
+from yawdamp_ros.nodes.subscriptions import STEADY, WARNING_PERIOD
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.stepping import Pacer
 from yawdamp_ros.stepping.pacer import CATCH_UP_NS
 from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
 
-WARNING_PERIOD = 5.0
-"""Seconds between warnings of one kind."""
 DIAGNOSTICS_PERIOD = 1.0
 """Period of the diagnostics in real time [s]."""
 
@@ -52,6 +50,7 @@ class Server:
         self._worst_lateness = 0.0
         self._loss_said = 0
         self._silence_said = False
+        self._silent: set[str] = set()
         self._tells_speed = False
         self._diagnosis = Diagnosis(
             node.get_fully_qualified_name(),
@@ -212,6 +211,11 @@ class Server:
                 f"steering: no command for {settings.steering_timeout:g} s; the last one is {becomes}"
             )
         self._silence_said = silent
+        inputs = set(simulator.commands.silent)
+        for name in sorted(inputs - self._silent):
+            timeout = simulator.settings.steering_timeout
+            self._node.get_logger().warning(f"{name}: no command for {timeout:g} s; the last one is held")
+        self._silent = inputs
 
     def _tell_speed(self) -> None:
         """Set the parameter to the speed in force."""
@@ -230,6 +234,7 @@ class Server:
         settings, motion, commands = simulator.settings, simulator.motion, simulator.commands
         steering, recorder = commands.steering_input, simulator.recorder
         silence = steering.steps_since_command(motion.step)
+        silent = commands.silent
         return Readings(
             samples=simulator.run.samples,
             rate_wanted=settings.publish_rate * settings.real_time_factor,
@@ -248,6 +253,7 @@ class Server:
                     if (since := held.steps_since_command(motion.step)) is None
                     else simulator.grid.seconds(since),
                     dict(held.counts),
+                    timed_out=name in silent,
                 )
                 for name, held in commands.held.items()
             },

@@ -26,10 +26,11 @@ class SteeringState(StrEnum):
 
 
 class InputState(StrEnum):
-    """Keys that say whether inputs besides the steering have come."""
+    """Keys that say whether inputs besides the steering have come, and go on coming."""
 
     NO_COMMAND = "no_command"
     COMMANDED = "commanded"
+    TIMED_OUT = "timed_out"
 
 
 class EventState(StrEnum):
@@ -86,7 +87,7 @@ VERDICT_SENTENCES: Mapping[Verdict, str] = MappingProxyType(
         Verdict.BACKWARDS: "rejected, the model only drives forwards",
         Verdict.NO_JOINT: "rejected, without the joint that steers",
         Verdict.STALE: "rejected, its time stamp is too far from now",
-        Verdict.NOT_SOURCE: "rejected, longitudinal_source names another source",
+        Verdict.NOT_SOURCE: "rejected, longitudinal_source or friction_file names another source",
     }
 )
 

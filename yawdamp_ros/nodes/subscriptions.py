@@ -16,7 +16,8 @@ from yawdamp_ros.nodes.states import VERDICT_SENTENCES
 from yawdamp_ros.runs.encoder import message_class
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.simulation import Commands
-from yawdamp_ros.simulation.steering_messages import STEERING_TYPES, message_stamp
+from yawdamp_ros.simulation.commands import ACCEPTED
+from yawdamp_ros.simulation.steering_messages import LONGITUDINAL_TYPES, STEERING_TYPES, message_stamp
 from yawdamp_ros.stepping import Verdict
 from yawdamp_ros.stepping.time_grid import SECOND
 
@@ -78,6 +79,7 @@ class SteeringSubscription:
         self._receive = guard(self._judge)
         self._warn = _Warnings(node, "steering")
         self._angle = STEERING_TYPES[type_name]
+        self._demand = LONGITUDINAL_TYPES.get(type_name)
         self._joint = joint
         self._target = target
         self._now = now
@@ -102,6 +104,11 @@ class SteeringSubscription:
             stamped = "" if age is None else f", stamped {age:.3g} s ago"
             count = self._target.steering_input.counts[verdict]
             self._warn(verdict, f"{command}{stamped}: {VERDICT_SENTENCES[verdict]}, {count} so far")
+        if self._demand is not None and verdict in ACCEPTED and self._target.by_steering:
+            name, value, verdict = self._target.follow(self._demand(message))
+            if verdict is not Verdict.ACCEPTED:
+                count = self._target.held[name].counts[verdict]
+                self._warn(verdict, f"{name} {value}: {VERDICT_SENTENCES[verdict]}, {count} so far")
 
 
 class InputSubscription:

@@ -121,7 +121,7 @@ def _response(messages: Mapping[str, list[Any]], units: tuple[str, ...], stamps:
         yaw=np.unwrap(gather(lambda unit, index: _yaw(imu(unit, index).orientation)), axis=0),
         yaw_rate=gather(lambda unit, index: imu(unit, index).angular_velocity.z),
         lateral_acceleration=gather(lambda unit, index: imu(unit, index).linear_acceleration.y),
-        articulation=joints[:, 1:],
+        articulation=joints[:, 1 : len(units)],
         x=gather(lambda unit, index: position(unit, index).x),
         y=gather(lambda unit, index: position(unit, index).y),
     )

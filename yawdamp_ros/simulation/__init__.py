@@ -9,13 +9,12 @@ from yawdamp_ros.simulation.library import simulate
 from yawdamp_ros.simulation.limits import Limits, Stop
 from yawdamp_ros.simulation.linear_range import LinearRange
 from yawdamp_ros.simulation.models import MODELS, make_motion
-from yawdamp_ros.simulation.run import SAMPLES_AT_ONCE, Run, Source
+from yawdamp_ros.simulation.run import Run, Source
 from yawdamp_ros.simulation.settings import SimParameters
 from yawdamp_ros.simulation.sink import Sink
 
 __all__ = [
     "MODELS",
-    "SAMPLES_AT_ONCE",
     "Commands",
     "Limits",
     "LinearRange",

@@ -2,13 +2,16 @@
 
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from yawdamp_ros.manoeuvres import make_manoeuvre
 from yawdamp_ros.simulation.errors import SimulationError
-from yawdamp_ros.simulation.inputs import LONGITUDINAL, held_inputs
+from yawdamp_ros.simulation.friction_route import FrictionRoute
+from yawdamp_ros.simulation.inputs import LONGITUDINAL, held_inputs, input_of
 from yawdamp_ros.simulation.settings import SimParameters
+from yawdamp_ros.simulation.steering_messages import LongitudinalDemand
 from yawdamp_ros.stepping import (
     AppliedInput,
     Command,
@@ -18,10 +21,12 @@ from yawdamp_ros.stepping import (
     TimeGrid,
     Verdict,
 )
-from yawdamp_ros.stepping.time_grid import nanoseconds
+from yawdamp_ros.stepping.time_grid import SECOND, nanoseconds
 
 ACCEPTED = frozenset({Verdict.ACCEPTED, Verdict.CLAMPED})
 
+SAMPLES_AT_ONCE = 1000
+"""Instants that are computed at once if nothing waits for each."""
 Signal = tuple[Sequence[float], Sequence[float]]
 """Times in s, and values that hold until the next."""
 NO_SIGNALS: Mapping[str, Signal] = MappingProxyType({})
@@ -46,13 +51,15 @@ class Commands:
     steering_input : SteeringInput
     held : dict of str to HeldInput
         Inputs besides steering, by the names that the motion takes.
+    samples_at_once : int
+        Most samples that the run may take at once; 1 if an input depends on the motion.
 
     Raises
     ------
     ManoeuvreError
         If the settings' manoeuvre cannot be.
     SimulationError
-        If the model does not take one of the inputs.
+        If the model does not take one of the inputs, or there is no reading `friction_file`.
 
     Examples
     --------
@@ -84,8 +91,13 @@ class Commands:
         if settings.speed is not None and settings.longitudinal_source == "parameter":
             self.held["speed"].value = settings.speed
         self._applied: dict[str, float | None] = {"speed": motion.speed}
+        self._speed_rate = 0.0
         self._settings = settings
         self._reset = False
+        self._route = FrictionRoute.read(Path(settings.friction_file)) if settings.friction_file else None
+        self._distance = 0.0
+        self._last = motion.step, motion.speed
+        self.samples_at_once = SAMPLES_AT_ONCE if self._route is None else 1
         self._received: list[Command] = []
         self._command = self._command_source(settings, log)
         if missing := sorted(inputs.keys() - self.held.keys()):
@@ -126,7 +138,51 @@ class Commands:
         """
         if name in LONGITUDINAL and name != self._settings.longitudinal_source:
             return self.held[name].reject(Verdict.NOT_SOURCE)
+        if name == "friction" and self._route is not None:
+            return self.held[name].reject(Verdict.NOT_SOURCE)
         return self.held[name].offer(value, self._motion.step)
+
+    def follow(self, demand: LongitudinalDemand) -> tuple[str, float, Verdict]:
+        """Accept or reject the longitudinal motion that a steering message demands.
+
+        Parameters
+        ----------
+        demand : LongitudinalDemand
+
+        Returns
+        -------
+        name : str
+            Input that it is for: ``acceleration`` where the message holds one and the model takes it.
+        value : float
+        verdict : Verdict
+        """
+        name, value = "speed", demand.speed
+        if demand.acceleration is not None and "acceleration" in self.held:
+            name, value = "acceleration", demand.acceleration
+        verdict = self.held[name].offer(value, self._motion.step)
+        if name == "speed" and verdict in ACCEPTED:
+            self._speed_rate = demand.rate
+        return name, value, verdict
+
+    @property
+    def by_steering(self) -> bool:
+        """True if the speed or acceleration of the steering messages counts."""
+        return self._settings.longitudinal_source == "steering"
+
+    @property
+    def silent(self) -> list[str]:
+        """Inputs besides steering that were commanded, but not for longer than the timeout."""
+        step, timeout = self._motion.step, self.steering_input.timeout_steps
+        source = self._settings.longitudinal_source
+        return [
+            name
+            for name, held in self.held.items()
+            if (age := held.steps_since_command(step)) is not None
+            and age > timeout
+            and held.value is not None
+            and ((kind := input_of(name)) is None or kind.repeated)
+            and (name not in LONGITUDINAL or source in {name, "steering"})
+        ]
 
     @property
     def commanded(self) -> bool:
@@ -147,8 +203,10 @@ class Commands:
         speed = self.held["speed"]
         if settings.longitudinal_source == "parameter" and settings.speed not in {None, self._settings.speed}:
             speed.value = settings.speed
-        elif settings.longitudinal_source != self._settings.longitudinal_source == "acceleration":
-            speed.value = self._motion.speed  # nothing else demands it
+        elif settings.longitudinal_source != self._settings.longitudinal_source:
+            self._speed_rate = 0.0
+            if self._settings.longitudinal_source in {"acceleration", "steering"}:
+                speed.value = self._motion.speed  # nothing else demands it
         self._settings = settings
 
     def inputs(self, steps: range) -> Sequence[AppliedInput]:
@@ -157,6 +215,8 @@ class Commands:
         if self._reset:
             self._reset = False
             found.append(AppliedInput(steps[0], "reset", 0.0))
+            self._distance = 0.0
+        self._follow_route()
         found += self._new(steps[0])
         while self._ahead and self._ahead[0][0] <= self._grid.seconds(steps[-1]):
             due, name, value = self._ahead.popleft()
@@ -165,15 +225,33 @@ class Commands:
             found += self._new(step)
         return found
 
+    def _follow_route(self) -> None:
+        """Let the friction of the present place act; backwards the distance decreases."""
+        (since, before), now = self._last, (self._motion.step, self._motion.speed)
+        self._last = now
+        self._distance += 0.5 * (before + now[1]) * self._grid.seconds(now[0] - since)
+        if self._route is not None and (friction := self._route.at(self._distance)) is not None:
+            self.held["friction"].value = friction
+
     def _new(self, step: int) -> list[AppliedInput]:
         """Inputs that differ from the applied ones, from a step on."""
         found = []
         for name, held in self.held.items():
-            if held.value is not None and held.value != self._applied.get(name):
-                self._applied[name] = held.value
-                found.append(AppliedInput(step, name, held.value))
+            value = self._approached(held.value) if name == "speed" else held.value
+            if value is not None and value != self._applied.get(name):
+                self._applied[name] = value
+                found.append(AppliedInput(step, name, value))
                 self._end_other(name)
         return found
+
+    def _approached(self, speed: float | None) -> float | None:
+        """Speed to apply in this period on the way to a target [m/s]."""
+        if speed is None or not self._speed_rate:
+            return speed
+        before = self._applied["speed"]
+        before = self._motion.speed if before is None else before
+        most = self._speed_rate * self._grid.period_ns / SECOND
+        return min(max(speed, before - most), before + most)
 
     def _end_other(self, name: str) -> None:
         """Use the newer of speed and acceleration; the other one acts when it arrives again."""

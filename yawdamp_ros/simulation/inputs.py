@@ -27,6 +27,8 @@ class Input(NamedTuple):
     low, high : float
         Range; a value outside is clamped.
     of_unit : bool
+    repeated : bool
+        Whether a controller repeats it, so that silence means that the controller is gone.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Input(NamedTuple):
     low: float
     high: float
     of_unit: bool = False
+    repeated: bool = True
 
     @property
     def topic(self) -> str:
@@ -58,8 +61,15 @@ INPUTS: tuple[Input, ...] = (
         -15.0,
         15.0,
     ),
-    Input("gear", "1, 0 or -1 (reverse), to which a positive acceleration drives", "1", -1.0, 1.0),
-    Input("friction", "of tyres on the road from now on", "1", 0.01, 2.0),
+    Input(
+        "gear",
+        "1, 0 or -1 (reverse), to which a positive acceleration drives",
+        "1",
+        -1.0,
+        1.0,
+        repeated=False,
+    ),
+    Input("friction", "of tyres on the road from now on", "1", 0.01, 2.0, repeated=False),
     Input("brake", "brake demand besides, over the unit's own mass", "m/s^2", 0.0, 15.0, of_unit=True),
     Input("yaw_moment", "by braking one side, left positive", "N m", -1e6, 1e6, of_unit=True),
     Input("steering", "of axles with `steered: commanded`, left positive", "rad", -0.8, 0.8, of_unit=True),

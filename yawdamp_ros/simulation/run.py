@@ -10,9 +10,6 @@ from yawdamp_ros.simulation.limits import Limits, Stop, limit_violation
 from yawdamp_ros.simulation.sink import Sink
 from yawdamp_ros.stepping import AppliedInput, Command, Event, Motion, Sample, TimeGrid
 
-SAMPLES_AT_ONCE = 1000
-"""Instants that are computed at once if no sink waits for each."""
-
 
 class Source(Protocol):
     """Source of the inputs of a run: `Commands`, or the recording of another run.

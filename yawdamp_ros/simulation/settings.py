@@ -10,7 +10,7 @@ from yawdamp_ros.dynamics import LOWEST_SPEED
 from yawdamp_ros.dynamics.linear_range import LINEAR_ARTICULATION, LINEAR_LATERAL_ACCELERATION
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.simulation.models import MODELS
-from yawdamp_ros.simulation.steering_messages import STEERING_TYPES
+from yawdamp_ros.simulation.steering_messages import LONGITUDINAL_TYPES, STEERING_TYPES
 from yawdamp_ros.stepping import Start
 from yawdamp_ros.stepping.held_input import FASTEST_REVERSE, HIGHEST_SPEED
 
@@ -89,8 +89,9 @@ class SimParameters:
     )
     longitudinal_source: str = _parameter(
         "parameter",
-        "source of the speed: the parameter, or the topic speed or acceleration from its first message on",
-        choices=("parameter", "speed", "acceleration"),
+        "source of the speed: the parameter, the topic speed or acceleration, or the steering message's own "
+        "fields, each from its first message on",
+        choices=("parameter", "speed", "acceleration", "steering"),
         dynamic=True,
     )
     initial_speed: float | None = _parameter(
@@ -121,6 +122,10 @@ class SimParameters:
         limits=(0.0, 100.0),
         dynamic=True,
     )
+    friction_file: str = _parameter(
+        "",
+        "CSV file with the columns distance in m along the path and friction from there on; nonlinear model",
+    )
     steering_type: str = _parameter(
         "std_msgs/msg/Float64", "message type of the steering topic", choices=STEERING_TYPES
     )
@@ -139,7 +144,8 @@ class SimParameters:
     )
     steering_timeout: float = _parameter(
         0.5,
-        "simulated time in s without a command after which on_steering_timeout acts",
+        "simulated time in s without a command after which on_steering_timeout acts; silence of other inputs "
+        "is reported, too",
         limits=(0.0, 1e6),
         dynamic=True,
     )
@@ -244,7 +250,7 @@ class SimParameters:
 
     def problem(self) -> str:
         """First conflict between these values; empty if there is none."""
-        if problem := self._start_problem() or self._model_problem():
+        if problem := self.start_problem() or self.model_problem() or self._source_problem():
             return problem
         if 0.0 < self.real_time_factor < SLOWEST:
             return f"real_time_factor: {self.real_time_factor}: expected 0, or {SLOWEST} to 100"
@@ -258,7 +264,8 @@ class SimParameters:
             return f"manoeuvre.{given}: manoeuvre.name is none; expected a manoeuvre"
         return ""
 
-    def _start_problem(self) -> str:
+    def start_problem(self) -> str:
+        """First conflict in how the run starts; empty if there is none."""
         if len(self.initial_pose) != len(Start._fields) - 1 or not all(map(math.isfinite, self.initial_pose)):
             return f"initial_pose: {list(self.initial_pose)}: expected x and y in m and yaw in rad"
         if not all(abs(angle) < math.pi for angle in self.initial_articulation):
@@ -267,7 +274,20 @@ class SimParameters:
             return "wait_for_command: start_paused is given as well; expected one of the two"
         return ""
 
-    def _model_problem(self) -> str:
+    def _source_problem(self) -> str:
+        if self.longitudinal_source != "steering":
+            return ""
+        if self.manoeuvre != "none":
+            return f"longitudinal_source: steering: the manoeuvre {self.manoeuvre} steers, and no message"
+        if self.steering_type not in LONGITUDINAL_TYPES:
+            return (
+                f"longitudinal_source: steering: {self.steering_type} holds no speed; expected steering_type "
+                f"{' or '.join(LONGITUDINAL_TYPES)}"
+            )
+        return ""
+
+    def model_problem(self) -> str:
+        """First setting that the model cannot follow; empty if there is none."""
         if self.model == "nonlinear":
             return ""
         for name, speed in (("speed", self.speed), ("initial_speed", self.initial_speed)):
@@ -276,6 +296,10 @@ class SimParameters:
                     f"{name}: {speed}: model {self.model} cannot stand or reverse; expected at least "
                     f"{LOWEST_SPEED} m/s, or model nonlinear; leave it out for the vehicle's own"
                 )
+        if self.friction_file:
+            return (
+                f"friction_file: {self.friction_file}: model {self.model} has no friction; expected nonlinear"
+            )
         if self.longitudinal_source == "acceleration":
             return (
                 f"longitudinal_source: acceleration: model {self.model} follows speeds alone; expected model "

@@ -1,8 +1,8 @@
-"""Messages that hold steering, and the path of the angle in each."""
+"""Messages that hold steering, and the paths of the angle, the speed and the acceleration in each."""
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 from yawdamp_ros.stepping.time_grid import SECOND
 
@@ -28,6 +28,49 @@ STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyT
     }
 )
 """Types that can hold steering, each with a function to its angle, left positive [rad]."""
+
+
+class LongitudinalDemand(NamedTuple):
+    """Longitudinal motion that a steering message demands.
+
+    Attributes
+    ----------
+    speed : float
+        Target speed [m/s].
+    acceleration : float or None
+        Acceleration [m/s^2], which counts before the speed where the model takes it; None: not demanded.
+    rate : float
+        Rate at which the target speed is approached [m/s^2]; 0: as fast as the model can.
+
+    Examples
+    --------
+    >>> LongitudinalDemand(speed=5.0).rate
+    0.0
+    """
+
+    speed: float
+    acceleration: float | None = None
+    rate: float = 0.0
+
+
+def _ackermann(message: Any) -> LongitudinalDemand:  # noqa: ANN401
+    drive = message.drive
+    return LongitudinalDemand(float(drive.speed), rate=abs(float(drive.acceleration)))
+
+
+def _autoware(message: Any) -> LongitudinalDemand:  # noqa: ANN401
+    wanted = message.longitudinal
+    acceleration = float(wanted.acceleration) if wanted.is_defined_acceleration else None
+    return LongitudinalDemand(float(wanted.velocity), acceleration)
+
+
+LONGITUDINAL_TYPES: Mapping[str, Callable[[Any], LongitudinalDemand]] = MappingProxyType(
+    {
+        "ackermann_msgs/msg/AckermannDriveStamped": _ackermann,
+        "autoware_control_msgs/msg/Control": _autoware,
+    }
+)
+"""Types that hold a speed besides the angle, each with a function to what it demands."""
 
 
 def message_stamp(message: Any) -> int:  # noqa: ANN401 - made from a definition
