@@ -58,7 +58,7 @@ def test_a_part_of_a_log_is_scaled_and_played(graph: Graph, tmp_path: Path) -> N
 
 def test_a_loop_goes_on_until_it_is_stopped(graph: Graph, log: Path) -> None:
     graph.listen({"/steering": Float64})
-    process = graph.command("replay", str(log), "--rate", "20", "--loop")
+    process = graph.command("replay", str(log), "--rate", "5", "--loop")
     until(lambda: len(angles(graph)) > 2 * COUNT, "the third round")
     status, _, errors = stop(process)
     assert (status, errors) == (0, "")

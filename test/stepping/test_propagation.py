@@ -34,8 +34,8 @@ def extended_exponential(matrix: FloatArray) -> FloatArray:
 def test_the_exponential_is_that_of_extended_precision(vehicle: Vehicle, step_size: float) -> None:
     matrix = linear_model(vehicle).state_matrix * step_size
     expected = extended_exponential(matrix)
-    # The condition of an exponential is the norm of its argument.
-    bound = 1e-12 + np.finfo(np.float64).eps * np.abs(matrix).sum(axis=0).max()
+    # The condition of an exponential is the norm of its argument, the rounding of a product its size.
+    bound = 1e-12 + len(matrix) * np.finfo(np.float64).eps * np.abs(matrix).sum(axis=0).max()
     np.testing.assert_allclose(exponential(matrix), expected, rtol=0.0, atol=bound * np.abs(expected).max())
 
 
