@@ -185,7 +185,11 @@ def test_positions_that_are_no_numbers_are_named() -> None:
         load_vehicle("truck_trailer", ["units.0.positions_from=front_axle", "units.0.cg_position=abc"])
 
 
-def test_a_coefficient_needs_steered_axles_and_others() -> None:
-    changes = ["units.0.axles.*.cornering_coefficient=5", "units.0.axles.*.steered=true"]
+def test_a_coefficient_needs_two_supports() -> None:
+    one = "units.0.axles=[{position: 1, cornering_coefficient: 5, steered: true}]"
     with pytest.raises(VehicleError, match="cornering_coefficient needs the axles' loads"):
-        load_vehicle("truck_trailer", changes)
+        load_vehicle("truck_trailer", [one])
+    alike = ["units.0.axles.*.cornering_coefficient=5", "units.0.axles.*.steered=true"]
+    stiffness = [axle.cornering_stiffness for axle in load_vehicle("truck_trailer", alike).units[0].axles]
+    plain = load_vehicle("truck_trailer", alike[:1]).units[0].axles
+    assert stiffness == pytest.approx([axle.cornering_stiffness for axle in plain])

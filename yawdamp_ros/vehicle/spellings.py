@@ -226,7 +226,7 @@ def _stiffened(units: Sequence[dict[str, Any]], source: str) -> list[dict[str, A
     try:
         carried = _static_loads(units)
     except ZeroDivisionError as error:
-        problem = "cornering_coefficient needs the axles' loads: expected both steered axles and others"
+        problem = "cornering_coefficient needs the axles' loads: expected two supports that share them"
         raise VehicleError(source, "units.0.axles", problem) from error
     except (KeyError, TypeError):  # not a vehicle: the schema reports it
         return list(units)
