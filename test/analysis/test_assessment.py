@@ -1,9 +1,18 @@
 """Every measure of a combination, against its levels."""
 
+import numpy as np
 import pytest
 
-from yawdamp_ros import load_vehicle
-from yawdamp_ros.analysis import MEASURES, AnalysisError, Finding, assess, failed
+from yawdamp_ros import linear_model, load_vehicle
+from yawdamp_ros.analysis import (
+    MEASURES,
+    AnalysisError,
+    Finding,
+    assess,
+    failed,
+    run_lane_change,
+    steer_axle_position,
+)
 from yawdamp_ros.vehicle import builtin_vehicles
 
 
@@ -19,6 +28,7 @@ def test_measures_are_those_of_the_field() -> None:
         "understeer_gradient",
         "critical_speed",
         "rearward_amplification",
+        "rearward_amplification_steer_axle",
         "rearward_amplification_yaw_rate",
         "rearward_amplification_peak_gain",
         "rearward_amplification_peak_frequency",
@@ -55,12 +65,27 @@ def test_a_double_fails_where_b_doubles_pass() -> None:
 
 
 def test_rollover_threshold_decides_on_rearward_amplification() -> None:
-    assert found("a_double")["rearward_amplification"].passed is None
-    assert found("a_double", srt=0.4)["rearward_amplification"].passed is True
-    assert found("a_double", srt=0.35)["rearward_amplification"].passed is False
+    name = "rearward_amplification_steer_axle"
+    assert found("a_double")[name].passed is None
+    assert found("a_double", srt=0.42)[name].passed is True
+    assert found("a_double", srt=0.4)[name].passed is False
 
 
-def test_without_a_threshold_the_other_level_can_still_be_failed() -> None:
+def test_amplification_over_the_steer_axle_is_over_what_the_lane_change_prescribes() -> None:
+    run = run_lane_change(linear_model(load_vehicle("a_double"), 88.0 / 3.6))
+    turning = np.gradient(run.yaw_rate[:, 0], run.time)
+    axle = run.lateral_acceleration[:, 0] + steer_axle_position(load_vehicle("a_double")) * turning
+    expected = np.abs(run.lateral_acceleration[:, -1]).max() / np.abs(axle).max()
+    linear, nonlinear = (
+        {each.measure.name: each.value for each in assess(load_vehicle("a_double"), model)}
+        for model in ("consistent", "nonlinear")
+    )
+    assert linear["rearward_amplification_steer_axle"] == pytest.approx(expected, rel=1e-3)
+    ratio = nonlinear["rearward_amplification_steer_axle"] / nonlinear["rearward_amplification"]
+    assert 1.05 < ratio < 1.3
+
+
+def test_another_level_than_that_of_the_threshold_can_still_be_failed() -> None:
     name = "rearward_amplification"
     assert found("a_double", speed=28.0)[name].value > 2.2
     assert found("a_double", speed=28.0)[name].passed is False

@@ -8,13 +8,12 @@ import pytest
 
 from yawdamp_ros.analysis import AnalysisError, driven, low_speed_turn
 from yawdamp_ros.analysis.driven import (
-    CROSSFALL,
     directional_stability_under_braking,
     load_transfer_ratio,
     steer_tyre_friction_demand,
-    tracking_ability_on_a_straight_path,
 )
 from yawdamp_ros.analysis.nonlinear_runs import drive_lane_change
+from yawdamp_ros.analysis.tracking import CROSSFALL, tracking
 from yawdamp_ros.nonlinear import NonlinearDynamics, Outputs
 from yawdamp_ros.vehicle import Axle, Unit, Vehicle, load_vehicle, static_loads
 
@@ -87,7 +86,7 @@ def test_a_truck_crabs_on_a_crossfall_by_the_slip_of_its_axles() -> None:
     crab = CROSSFALL * (loads[1] + loads[2]) / (2.0 * STIFFNESS)
     assert unit.width is None
     expected = width * math.cos(crab) + ends * math.sin(crab)
-    assert tracking_ability_on_a_straight_path(TRUCK, 25.0) == pytest.approx(expected, abs=0.01)
+    assert tracking(TRUCK, 25.0).steady == pytest.approx(expected, abs=0.01)
 
 
 def test_load_transfer_is_the_moment_of_the_height_over_what_the_rear_axles_carry() -> None:

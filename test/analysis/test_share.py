@@ -12,7 +12,8 @@ from yawdamp_ros.cli import run
 from yawdamp_ros.vehicle import load_vehicle, vehicle_text
 
 MEASURES = (
-    "low_speed_swept_path,static_rollover_threshold,rearward_amplification,high_speed_transient_offtracking"
+    "low_speed_swept_path,static_rollover_threshold,rearward_amplification_steer_axle,"
+    "high_speed_transient_offtracking"
 )
 KEYS = (("units.3.cg_height",), ("units.3.mass",))
 SPANS = [(1.6, 3.0), (20000.0, 36000.0)]
@@ -50,7 +51,7 @@ def test_the_command_says_which_share_meets_the_level_and_what_decides(
     assert run(command) == 1
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].startswith("a_double: ")
-    assert lines[0].endswith(" % of 20 vehicles meet pbs (2 of 17 measures)")
+    assert lines[0].endswith(" % of 20 vehicles meet pbs (2 of 18 measures)")
     assert any(line.startswith("│ static_rollover_threshold │") for line in lines)
     assert run([*command, "--format", "json"]) == 1
     found = json.loads(capsys.readouterr().out)

@@ -52,6 +52,7 @@ frame.addEventListener("load", () => {{
       heading: page().getElementById("heading").textContent,
       turns: box("#turns svg").length,
       drawings: box("#vehicles svg").length,
+      pictures: box("#pictures h3").map((each) => each.textContent.split(":")[0]),
       tables: box(".scroll").map((each) => each.previousSibling.textContent),
     }}) }});
   }});
@@ -165,13 +166,20 @@ def test_page_of_a_scheme_tells_who_what_and_whether_and_compares(
     assert shown["needed"] <= width
     assert shown["outside"] == []
     assert shown["verdict"].startswith(
-        "FAILS pbs, level 2; level reached: 4; decided by high speed transient"
+        "FAILS pbs, level 2; level reached: none; decided by rearward amplification steer axle"
     )
     assert shown["heading"].startswith(
         "Project: BridgeAuthor: An assessorDate: 2026-11-24Scheme: Performance"
     )
     assert shown["turns"] == 2
     assert shown["drawings"] == 2
+    assert shown["pictures"] == [
+        "Tracking ability on a straight path",
+        "Frontal swing",
+        "Tail swing",
+        "Steer tyre friction demand",
+        "Directional stability under braking",
+    ]
     assert {"Side by side", "What differs in their data", "Units", "Axles"} <= set(shown["tables"])
     assert len(shown["rows"]) == len(load_scheme("pbs").measures)
 

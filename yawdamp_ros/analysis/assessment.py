@@ -165,6 +165,14 @@ class Assessment:
             parts.append(f"decided by {', '.join(found.deciding)}")
         if found.unknown:
             parts.append(f"not known: {', '.join(found.unknown)}")
+        if assuming := [
+            finding.measure.name
+            for finding in self.findings
+            if finding.passed is not None
+            and isinstance(finding.measure, VehicleMeasure)
+            and finding.measure.assumes
+        ]:
+            parts.append(f"by assumptions for {', '.join(assuming)}")
         if moved := [each.measure.name for each in self.findings if each.is_off_standard]:
             parts.append(f"not at the speed of the standard: {', '.join(moved)}")
         return "; ".join(parts)
@@ -376,9 +384,6 @@ def _judged(
 
     reached = next((place for place in range(easiest + 1) if met(value, place)), None)
     passed = met(value, chosen)
-    if isinstance(finding.measure, VehicleMeasure) and finding.measure.caveat:
-        # A lower bound cannot meet an upper limit, at any level.
-        passed, reached = False if passed is False else None, None
     judged = replace(finding, limits=limits, reached=reached, passed=passed)
     span = spans.get(finding.measure.name)
     if span is None or {met(reading, chosen) for reading in span} == {passed}:

@@ -7,17 +7,18 @@ from typing import NamedTuple
 
 import numpy as np
 
+from yawdamp_ros.analysis import nonlinear_runs
+from yawdamp_ros.analysis.bodies import lateral_positions
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.lane_change import steer_axle_position
 from yawdamp_ros.analysis.nonlinear_runs import drive_lane_change
 from yawdamp_ros.analysis.swept_path import along_guide
 from yawdamp_ros.analysis.tractrix import low_speed_turn
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.nonlinear import NonlinearDynamics, NonlinearError, Outputs, Settings, steady_turn
+from yawdamp_ros.nonlinear import NonlinearDynamics, Outputs, Settings
 from yawdamp_ros.nonlinear.layout import STEERING
 from yawdamp_ros.nonlinear.static_roll import roll_groups
 from yawdamp_ros.vehicle import Vehicle, complete
-from yawdamp_ros.vehicle.shape import extent
 
 STEP = 0.001
 """Time step of the motion [s]."""
@@ -27,14 +28,14 @@ APPROACH = 3.0
 """Straight way before a turn [m]."""
 GAIN = 0.5
 """Driver's change of direction for a distance from the path [rad/m]."""
-CROSSFALL = 0.03
-"""Crossfall of the straight road of PBS's tracking-ability test, whose roughness is left out."""
 SPLIT_FRICTION = (0.5, 0.25)
 """Friction left and right: at least 0.5, and half of that (UN R13, annex 13)."""
 HARD_BRAKING = 5.0
 """Deceleration demanded, the service brake's of UN R13 [m/s^2]."""
 LONGEST_STOP = 30.0
 """In s."""
+LOW_SPEED = 5.0 / 3.6
+"""Speed of the low-speed turn [m/s]."""
 FREE = 1e-3
 """Cornering stiffness of a castering axle [N/rad]."""
 WALKING = 1.0
@@ -81,7 +82,34 @@ def steer_tyre_friction_demand(vehicle: Vehicle) -> float:
     >>> 0.0 < steer_tyre_friction_demand(load_vehicle("single_vehicle")) < 100.0
     True
     """
-    turn, speed = low_speed_turn(vehicle), 5.0 / 3.6
+    return float(friction_use(vehicle)[1].max())
+
+
+def friction_use(vehicle: Vehicle) -> tuple[FloatArray, FloatArray]:
+    """Share of the road's friction that the steered tyres use along the low-speed turn.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    way, share : ndarray, shape (m,)
+        Way of the guided tyre from the beginning of the arc [m], and the share [%].
+
+    Raises
+    ------
+    AnalysisError
+        If the vehicle cannot turn so.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> way, share = friction_use(load_vehicle("single_vehicle"))
+    >>> bool(way[0] < 0.0 < way[-1])
+    True
+    """
+    turn, speed = low_speed_turn(vehicle), LOW_SPEED
     dynamics = NonlinearDynamics(
         _castering(vehicle), Settings(track=False, roll=False, load_shift=False, relaxation=False)
     )
@@ -109,7 +137,9 @@ def steer_tyre_friction_demand(vehicle: Vehicle) -> float:
     out = run.outputs
     force = np.hypot(out.longitudinal_force[:, steered], out.lateral_force[:, steered]).sum(axis=1)
     load = out.wheel_load[:, steered].sum(axis=1)
-    return float(100.0 * (force / load).max() / (complete(vehicle).friction or 1.0))
+    point = out.position[:, 0, 0] + 1j * out.position[:, 0, 1] + arm * np.exp(1j * out.yaw[:, 0])
+    way, _ = along_guide(turn, point.real, point.imag)
+    return way, 100.0 * force / load / (complete(vehicle).friction or 1.0)
 
 
 def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
@@ -144,11 +174,35 @@ def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
     run = drive_lane_change(vehicle, speed)
     if run.rolled_over:
         return 1.0
+    return max(float(ratio.max()) for ratio in load_transfers(vehicle, run).values())
+
+
+def load_transfers(vehicle: Vehicle, run: nonlinear_runs.Run) -> dict[str, FloatArray]:
+    """Load transfer ratios of the units that roll together, over a run.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    run : Run
+        Run of m samples.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (m,)
+        Ratios, 0 to 1, by the names of the units; without units that have steered axles alone.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> vehicle = load_vehicle("a_double")
+    >>> list(load_transfers(vehicle, drive_lane_change(vehicle, 20.0)))
+    ['tractor + semitrailer_1', 'dolly + semitrailer_2']
+    """
     loads = run.outputs.wheel_load
     left, right = loads[:, 0::2], loads[:, 1::2]
     units = [unit for unit in range(len(vehicle.units)) for _ in vehicle.units[unit].axles]
     steered = [axle.steered for unit in vehicle.units for axle in unit.axles]
-    ratios = []
+    found = {}
     for group in roll_groups(vehicle):
         own = [
             number
@@ -156,46 +210,9 @@ def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
             if unit in group and not (steered[number] and unit == 0)
         ]
         if own:
-            moved = np.abs((right - left)[:, own].sum(axis=1))
-            ratios.append(float((moved / (left + right)[:, own].sum(axis=1)).max()))
-    return max(ratios)
-
-
-def tracking_ability_on_a_straight_path(vehicle: Vehicle, speed: float) -> float:
-    """Width that the bodies sweep on a straight road with a crossfall of 3 % [m].
-
-    The road's roughness, which PBS has besides, is left out: the value is a lower bound.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-    speed : float
-        Speed [m/s].
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    AnalysisError
-        If there is no steady motion at that speed.
-
-    Examples
-    --------
-    >>> from yawdamp_ros.vehicle import load_vehicle
-    >>> tracking_ability_on_a_straight_path(load_vehicle("interlink"), 25.0) > 2.55  # its width
-    True
-    """
-    dynamics = NonlinearDynamics(vehicle)
-    try:
-        inputs = dynamics.inputs(crossfall=CROSSFALL)
-        found = steady_turn(dynamics, speed, inputs, lateral_acceleration=0.0).outputs
-    except NonlinearError as error:
-        raise AnalysisError(str(error)) from error
-    sideways, forward = found.velocity[0, 0, 1], found.velocity[0, 0, 0]
-    low, high = _swept(vehicle, found, -math.atan2(sideways, forward))
-    return float(high[0] - low[0])
+            moved, carried = (part[:, own].sum(axis=1) for part in (right - left, right + left))
+            found[" + ".join(vehicle.unit_names[unit] for unit in group)] = np.abs(moved) / carried
+    return found
 
 
 def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float:
@@ -225,6 +242,34 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
     >>> directional_stability_under_braking(load_vehicle("interlink"), 60.0 / 3.6) < 3.0
     True
     """
+    return float(np.ptp(lateral_positions(vehicle, stop_on_split_friction(vehicle, speed).outputs, 0.0)))
+
+
+def stop_on_split_friction(vehicle: Vehicle, speed: float) -> Run:
+    """Run of `directional_stability_under_braking`.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    speed : float
+        Speed at which braking begins [m/s].
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    AnalysisError
+        If the vehicle rolls over or does not stop.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> run = stop_on_split_friction(load_vehicle("single_vehicle"), 10.0)
+    >>> bool(run.outputs.velocity[-1, 0, 0] <= WALKING)
+    True
+    """
     dynamics = NonlinearDynamics(vehicle)
     place = steer_axle_position(vehicle)
 
@@ -237,8 +282,7 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
     if run.outputs.velocity[-1, 0, 0] > WALKING:
         message = f"{vehicle.name}: does not stop within {LONGEST_STOP:g} s"
         raise AnalysisError(message)
-    low, high = _swept(vehicle, run.outputs, 0.0)
-    return float(high.max() - low.min())
+    return run
 
 
 def _castering(vehicle: Vehicle) -> Vehicle:
@@ -280,18 +324,3 @@ def _driven(  # noqa: PLR0913, PLR0917 - the whole of one run
         states.append(state)
         rows.append(row.copy())
     return Run(np.array(rows), dynamics.outputs(np.array(states), np.array(rows)))
-
-
-def _swept(vehicle: Vehicle, found: Outputs, direction: float) -> tuple[FloatArray, FloatArray]:
-    """Smallest and largest lateral position of all bodies' corners across a direction, at each sample [m]."""
-    across = []
-    for index, unit in enumerate(complete(vehicle).units):
-        tail, nose = extent(unit)
-        ends = nose + (unit.front_overhang or 0.0), tail - (unit.rear_overhang or 0.0)
-        centre = found.position[:, index, 0] + 1j * found.position[:, index, 1]
-        for end in ends:
-            for side in (-0.5, 0.5):
-                corner = complex(end, side * (unit.width or 0.0))
-                point = centre + corner * np.exp(1j * found.yaw[:, index])
-                across.append((point * np.exp(1j * direction)).imag)
-    return np.min(across, axis=0), np.max(across, axis=0)

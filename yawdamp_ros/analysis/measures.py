@@ -96,8 +96,8 @@ class VehicleMeasure:
         Speed that its standard asks for [m/s]; None for the vehicle's own.
     fixed : bool
         Whether the manoeuvre has its own speed, which no request changes.
-    caveat : str
-        Reason that the value is a lower bound, which can fail an upper limit but not meet it; else empty.
+    assumes : str
+        Assumptions of value and verdict that the standard, or what was readable of it, does not settle.
 
     Examples
     --------
@@ -112,7 +112,7 @@ class VehicleMeasure:
     value_of: Callable[[Vehicle, float], float | None]
     speed: float | None = None
     fixed: bool = False
-    caveat: str = ""
+    assumes: str = ""
 
     def speed_for(self, vehicle: Vehicle, asked: float | None = None) -> float:
         """Speed at which a vehicle is judged [m/s]: requested, standard, or own."""
@@ -146,6 +146,14 @@ def _in_lane_change(quantity: int) -> Callable[[LinearModel], Answers]:
         return Answers(found.values, {**found.reasons, **runs.reasons})
 
     return answers
+
+
+def _over_steer_axle(model: LinearModel) -> Answers:
+    """Rearward amplification over the steer axle, whose acceleration the lane change prescribes."""
+    last, runs = 3 * len(model.vehicle.units) - 1, LaneChangeRuns(model)
+    values = np.abs(runs.outputs([last])[:, 0]).max(axis=1) / SAE_J2179.amplitude
+    values[list(runs.reasons)] = np.nan
+    return Answers(values, runs.reasons)
 
 
 _J2179 = (
@@ -188,6 +196,13 @@ _ALL = (
         "",
         f"largest lateral acceleration of the last unit over that of the first, {_J2179}",
         _in_lane_change(2),
+        SAE_J2179_SPEED,
+    ),
+    Measure(
+        "rearward_amplification_steer_axle",
+        "",
+        f"largest lateral acceleration of the last unit over that of the steer axle, {_J2179}",
+        _over_steer_axle,
         SAE_J2179_SPEED,
     ),
     Measure(
@@ -350,11 +365,13 @@ _OF_VEHICLES = (
     VehicleMeasure(
         "tracking_ability_on_a_straight_path",
         "m",
-        "width that the bodies sweep at 90 km/h on a straight road with a crossfall of 3 %, by the nonlinear "
-        "model; without the road's roughness (PBS)",
-        _later("driven", "tracking_ability_on_a_straight_path", at_speed=True),
+        "width that the bodies sweep at 90 km/h on a straight road of 1 km, 99th percentile: crossfall 3 %, "
+        "both wheel tracks of a roughness index (IRI) of 3.8 m/km, the nonlinear model linearised about its "
+        "steady motion there (PBS)",
+        _later("tracking", "tracking_ability_on_a_straight_path", at_speed=True),
         90.0 / 3.6,
-        caveat="the road's roughness is left out: a lower bound",
+        assumes="the driver aims the steered axle at its line 1 s ahead and adds nothing of his own; axles "
+        "have no roll steer; an isotropic road of ISO 8608's spectrum",
     ),
     VehicleMeasure(
         "directional_stability_under_braking",
@@ -363,7 +380,7 @@ _OF_VEHICLES = (
         "on the right, a driver keeping the steered axle on its line; by the nonlinear model (PBS)",
         _later("driven", "directional_stability_under_braking", at_speed=True),
         60.0 / 3.6,
-        caveat="the driver is ideal, lane and friction are assumed: a lower bound",
+        assumes="the driver is ideal; the friction of the road and, for the limit, the lane",
     ),
 )
 
@@ -382,6 +399,7 @@ NONLINEAR_MEASURES = (
     "yaw_damping_coefficient",
     "understeer_gradient",
     "rearward_amplification",
+    "rearward_amplification_steer_axle",
     "rearward_amplification_yaw_rate",
     "high_speed_transient_offtracking",
     "steady_offtracking",

@@ -89,6 +89,13 @@ def _amplification(vehicle: Vehicle, speed: float) -> float:
     return rearward_amplification(_lane_change(vehicle, speed).lateral_acceleration)
 
 
+def _amplification_over_steer_axle(vehicle: Vehicle, speed: float) -> float:
+    response = _lane_change(vehicle, speed)
+    turning = np.gradient(response.yaw_rate[:, 0], response.time)
+    axle = response.lateral_acceleration[:, 0] + steer_axle_position(vehicle) * turning
+    return rearward_amplification(np.column_stack([axle, response.lateral_acceleration[:, -1]]))
+
+
 def _yaw_rate_amplification(vehicle: Vehicle, speed: float) -> float:
     return rearward_amplification(_lane_change(vehicle, speed).yaw_rate)
 
@@ -135,6 +142,7 @@ _VALUES: Mapping[str, Callable[[Vehicle, float], float]] = MappingProxyType(
         "yaw_damping_coefficient": _yaw_damping,
         "understeer_gradient": _understeer,
         "rearward_amplification": _amplification,
+        "rearward_amplification_steer_axle": _amplification_over_steer_axle,
         "rearward_amplification_yaw_rate": _yaw_rate_amplification,
         "high_speed_transient_offtracking": _offtracking,
         "steady_offtracking": _steady_offtracking,

@@ -59,7 +59,7 @@ def drive(vehicle: Vehicle, speed: float, steering: FloatArray) -> Run:
     Examples
     --------
     >>> from yawdamp_ros.vehicle import load_vehicle
-    >>> drive(load_vehicle("single_vehicle"), 20.0, np.full(1001, 0.01)).time[-1]
+    >>> float(drive(load_vehicle("single_vehicle"), 20.0, np.full(1001, 0.01)).time[-1])
     1.0
     """
     dynamics, every = NonlinearDynamics(vehicle), GRID.steps_per_sample

@@ -151,7 +151,7 @@ def builtin_schemes() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _directory().glob("*.yaml")))
 
 
-def load_scheme(scheme: str | Path, only: str | None = None) -> Scheme:
+def load_scheme(scheme: str | Path, only: str | None = None, vehicle_class: str | None = None) -> Scheme:
     """Read a scheme by builtin name or from a file.
 
     Parameters
@@ -160,6 +160,8 @@ def load_scheme(scheme: str | Path, only: str | None = None) -> Scheme:
         One of `builtin_schemes`, or the path of a YAML file.
     only : str, optional
         Names of its measures that count, separated by commas; all unless given.
+    vehicle_class : str, optional
+        Class of vehicles whose own limits count, where the scheme has such.
 
     Returns
     -------
@@ -177,6 +179,8 @@ def load_scheme(scheme: str | Path, only: str | None = None) -> Scheme:
     'static_rollover_threshold'
     >>> load_scheme("pbs", "tail_swing").measures
     ('tail_swing',)
+    >>> load_scheme("pbs", vehicle_class="tanker").of("static_rollover_threshold")[0].limits
+    (0.4,)
     """
     source = str(scheme) or "''"
     known = builtin_schemes()
@@ -195,7 +199,7 @@ def load_scheme(scheme: str | Path, only: str | None = None) -> Scheme:
     except ValueError as error:  # no UTF-8 or no YAML
         message = f"{source}: {error}"
         raise AnalysisError(message) from error
-    built = _build(data, source)
+    built = _build(data, source, vehicle_class)
     return built if only is None else _restricted(built, only.split(","))
 
 
@@ -215,12 +219,17 @@ def _restricted(scheme: Scheme, names: list[str]) -> Scheme:
     )
 
 
-def _build(data: dict[str, Any], source: str) -> Scheme:
+def _build(data: dict[str, Any], source: str, vehicle_class: str | None) -> Scheme:
     from yawdamp_ros.analysis.measures import ALL_MEASURES  # noqa: PLC0415 - which loads much of SciPy
 
     levels = tuple(data.get("levels", [""]))
     names = tuple(entry["measure"] for entry in data["measures"])
-    requirements = tuple(_requirements(data["measures"], source, len(levels)))
+    classes = sorted({each for limit in _limits(data["measures"]) for each in limit.get("classes", ())})
+    if vehicle_class is not None and vehicle_class not in classes:
+        known = f"one of {', '.join(classes)}" if classes else "none: the scheme has no classes"
+        message = f"class: {vehicle_class}: {data['name']}: expected {known}"
+        raise AnalysisError(message)
+    requirements = tuple(_requirements(data["measures"], source, len(levels), vehicle_class))
     for place, name in enumerate(names):
         if name not in ALL_MEASURES:
             message = f"{source}: measures.{place}: {name}: expected one of {', '.join(ALL_MEASURES)}"
@@ -232,14 +241,22 @@ def _build(data: dict[str, Any], source: str) -> Scheme:
         if each.times and each.times not in ALL_MEASURES:
             message = f"{source}: {each.measure}: times: {each.times}: expected a measure"
             raise AnalysisError(message)
-    return Scheme(data["name"], data["title"], levels, names, requirements, tuple(data["sources"]))
+    name = data["name"] if vehicle_class is None else f"{data['name']} for the class {vehicle_class}"
+    return Scheme(name, data["title"], levels, names, requirements, tuple(data["sources"]))
 
 
-def _requirements(entries: list[dict[str, Any]], source: str, levels: int) -> Iterator[Requirement]:
+def _limits(entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [limit for entry in entries for limit in entry.get("require", ())]
+
+
+def _requirements(
+    entries: list[dict[str, Any]], source: str, levels: int, vehicle_class: str | None
+) -> Iterator[Requirement]:
     for place, entry in enumerate(entries):
         for limit in entry.get("require", ()):
             (kind,) = (kind for kind in KINDS if kind in limit)
-            values = limit[kind] if isinstance(limit[kind], list) else [limit[kind]]
+            given = limit.get("classes", {}).get(vehicle_class, limit[kind])
+            values = given if isinstance(given, list) else [given]
             if len(values) not in {1, levels}:
                 message = (
                     f"{source}: measures.{place}.require: {kind}: {len(values)} limits: "

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from yawdamp_ros.analysis.assessment import ROLLOVER
-from yawdamp_ros.analysis.measures import VEHICLE_MEASURES
 from yawdamp_ros.analysis.points import Points
 from yawdamp_ros.analysis.schemes import Requirement, Scheme
 from yawdamp_ros.analysis.study import Study
@@ -73,7 +72,7 @@ class Share:
     reaching : mapping of str to float
         Share that reaches each level or a harder one.
     unknown : tuple of str
-        Measures with a limit that have no value for some vehicle, or one that is a lower bound.
+        Measures with a limit that have no value for some vehicle.
     """
 
     count: int
@@ -135,17 +134,8 @@ def share_of(
             for place, name in enumerate(scheme.levels)
             if name
         },
-        tuple(
-            columns[place]
-            for place in limited
-            if np.isnan(by_name[columns[place]]).any() or _is_bound(columns[place])
-        ),
+        tuple(columns[place] for place in limited if np.isnan(by_name[columns[place]]).any()),
     )
-
-
-def _is_bound(name: str) -> bool:
-    """Tell if a measure's value is a lower bound only."""
-    return name in VEHICLE_MEASURES and bool(VEHICLE_MEASURES[name].caveat)
 
 
 def _failed(

@@ -66,7 +66,7 @@ def frontal_swing(vehicle: Vehicle) -> float:
     >>> 0.0 < frontal_swing(load_vehicle("interlink")) < 1.0
     True
     """
-    return float(_front_swing(low_speed_turn(vehicle), 0).max())
+    return float(front_swing(low_speed_turn(vehicle), 0).max())
 
 
 def frontal_swing_maximum_of_differences(vehicle: Vehicle) -> float | None:
@@ -136,12 +136,32 @@ def tail_swing(vehicle: Vehicle) -> float:
     True
     """
     turn = low_speed_turn(vehicle)
-    found = [0.0]
-    for index, unit in enumerate(turn.geometry):
-        if unit.body:
-            _, y = turn.path(index, unit.rear, -unit.half_width)
-            found.append(float((y[0] - y).max()))
-    return max(found)
+    bodies = [index for index, unit in enumerate(turn.geometry) if unit.body]
+    return max((float(rear_swing(turn, index).max()) for index in bodies), default=0.0)
+
+
+def rear_swing(turn: Turn, unit: int) -> FloatArray:
+    """Swing of a unit's rear corner out of the straight way that it came.
+
+    Parameters
+    ----------
+    turn : Turn
+    unit : int
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        In m, along the guided tyre's way; negative within.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> float(rear_swing(low_speed_turn(load_vehicle("interlink")), 0)[0])
+    0.0
+    """
+    own = turn.geometry[unit]
+    _, y = turn.path(unit, own.rear, -own.half_width)
+    return np.asarray(y[0] - y)
 
 
 def envelope(turn: Turn) -> tuple[FloatArray, FloatArray]:
@@ -163,18 +183,35 @@ def envelope(turn: Turn) -> tuple[FloatArray, FloatArray]:
     >>> bool(inner.max() > 6.0 > 0.0 >= outer.max())
     True
     """
-    stations = _stations(turn)
+    places = stations(turn)
     inner = np.full(STATIONS, -np.inf)
     outer = np.zeros(STATIONS)
     for index, unit in enumerate(turn.geometry):
-        inner = np.maximum(inner, _across(turn, index, 0.0, unit.half_width, stations))
+        inner = np.maximum(inner, _across(turn, index, 0.0, unit.half_width, places))
         for end in (unit.front, unit.rear):
             if unit.body:
-                outer = np.minimum(outer, _across(turn, index, end, -unit.half_width, stations))
+                outer = np.minimum(outer, _across(turn, index, end, -unit.half_width, places))
     return inner, outer
 
 
-def _stations(turn: Turn) -> FloatArray:
+def stations(turn: Turn) -> FloatArray:
+    """Places along the guided path at which widths are taken.
+
+    Parameters
+    ----------
+    turn : Turn
+
+    Returns
+    -------
+    ndarray, shape (STATIONS,)
+        From the beginning of the arc [m].
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> stations(low_speed_turn(load_vehicle("interlink"))).shape
+    (4000,)
+    """
     back = sum(unit.leader for unit in turn.geometry)
     return np.linspace(-back, float(turn.way[-1]), STATIONS)
 
@@ -183,19 +220,37 @@ def _swings(vehicle: Vehicle) -> Iterator[tuple[FloatArray, FloatArray]]:
     """Front swings of each unit with a body and of the next one behind it that has one."""
     turn = low_speed_turn(vehicle)
     bodies = [index for index, unit in enumerate(turn.geometry) if unit.body]
-    return pairwise([_front_swing(turn, index) for index in bodies])
+    return pairwise([front_swing(turn, index) for index in bodies])
 
 
-def _front_swing(turn: Turn, unit: int) -> FloatArray:
-    """Swing of a unit's front corner at every station, 0 within the guided path [m]."""
+def front_swing(turn: Turn, unit: int) -> FloatArray:
+    """Swing of a unit's front corner at every station, 0 within the guided path.
+
+    Parameters
+    ----------
+    turn : Turn
+    unit : int
+
+    Returns
+    -------
+    ndarray, shape (STATIONS,)
+        In m, at the `stations`.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> turn = low_speed_turn(load_vehicle("interlink"))
+    >>> bool(front_swing(turn, 0).max() == frontal_swing(load_vehicle("interlink")))
+    True
+    """
     own = turn.geometry[unit]
-    return np.maximum(-_across(turn, unit, own.front, -own.half_width, _stations(turn)), 0.0)
+    return np.maximum(-_across(turn, unit, own.front, -own.half_width, stations(turn)), 0.0)
 
 
-def _across(turn: Turn, unit: int, forward: float, left: float, stations: FloatArray) -> FloatArray:
+def _across(turn: Turn, unit: int, forward: float, left: float, places: FloatArray) -> FloatArray:
     """Distance of a point's path from the guided path at stations along it, inwards positive [m]."""
     way, inwards = along_guide(turn, *turn.path(unit, forward, left))
-    return np.interp(stations, np.maximum.accumulate(way), inwards)
+    return np.interp(places, np.maximum.accumulate(way), inwards)
 
 
 def along_guide(turn: Turn, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:

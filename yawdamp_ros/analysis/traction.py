@@ -5,6 +5,7 @@ no time and rotating masses count for nothing, so that speeds and times are the 
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -127,6 +128,34 @@ def acceleration_capability(vehicle: Vehicle) -> float:
     >>> 10.0 < acceleration_capability(strong) < 20.0
     True
     """
+    return float(acceleration_from_rest(vehicle)[0][-1])
+
+
+def acceleration_from_rest(vehicle: Vehicle) -> tuple[FloatArray, FloatArray]:
+    """Motion over the first 100 m from rest on a level road.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        Vehicle with ``drive_power`` and ``drive_force``.
+
+    Returns
+    -------
+    time, way : ndarray, shape (m,)
+        In s and m.
+
+    Raises
+    ------
+    AnalysisError
+        If the vehicle file lacks a number, or the vehicle does not move.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> strong = load_vehicle("interlink", ["drive_force_kN=100", "drive_power_kW=300"])
+    >>> float(acceleration_from_rest(strong)[1][-1].round(6))
+    100.0
+    """
     thrust = _Thrust(vehicle, "acceleration_capability")
 
     def rates(_time: float, state: FloatArray) -> list[float]:
@@ -140,7 +169,49 @@ def acceleration_capability(vehicle: Vehicle) -> float:
         message = f"{vehicle.name}: acceleration_capability: drive_force is less than the rolling resistance"
         raise AnalysisError(message)
     solved = solve_ivp(rates, (0.0, 1e4), [0.0, 0.0], events=there, rtol=1e-9, atol=1e-9, max_step=1.0)
-    return float(solved.t[-1])
+    return solved.t, solved.y[0]
+
+
+def force_balance(
+    vehicle: Vehicle, speeds: FloatArray, grades: Sequence[float]
+) -> tuple[FloatArray, list[FloatArray]]:
+    """Largest force at the driven wheels, and what grades ask of it.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        Vehicle with ``drive_power`` and ``drive_force``.
+    speeds : ndarray, shape (m,)
+        Speeds [m/s].
+    grades : sequence of float
+        Rise of the road.
+
+    Returns
+    -------
+    force : ndarray, shape (m,)
+        In N.
+    resistances : list of ndarray, shape (m,)
+        Resistance on each grade [N].
+
+    Raises
+    ------
+    AnalysisError
+        If the vehicle file lacks a number that this needs.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> strong = load_vehicle("interlink", ["drive_force_kN=100", "drive_power_kW=300"])
+    >>> force, (level,) = force_balance(strong, np.array([0.0, 30.0]), [0.0])
+    >>> bool(force[0] > level[0])
+    True
+    """
+    thrust = _Thrust(vehicle, "the balance of forces")
+    listed = speeds.tolist()
+    return (
+        np.array([thrust.at(speed) for speed in listed]),
+        [np.array([thrust.resistance(speed, grade) for speed in listed]) for grade in grades],
+    )
 
 
 class _Thrust:

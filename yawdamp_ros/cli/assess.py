@@ -43,7 +43,7 @@ def main(argv: Sequence[str]) -> int:
     _check(options)
     if options.differences:
         return _differences(options)
-    scheme = load_scheme(options.scheme, options.measures)
+    scheme = load_scheme(options.scheme, options.measures, options.vehicle_class)
     if options.random is not None:
         return _many(options, scheme)
     assessments = [_assessed(options, scheme, name) for name in options.vehicle or [DEFAULT_VEHICLE]]
@@ -124,9 +124,9 @@ def _check(options: argparse.Namespace) -> None:
 
 def _differences(options: argparse.Namespace) -> int:
     """Print the difference of each measure between the models, at its own manoeuvre."""
-    for name in ("html", "pdf", "xlsx", "srt", "model", "level", "random"):
+    for name in ("html", "pdf", "xlsx", "srt", "model", "level", "vehicle_class", "random"):
         if getattr(options, name) is not None:
-            message = f"--{name}: not with --differences, which compares the models"
+            message = f"--{name.rpartition('_')[2]}: not with --differences, which compares the models"
             raise UsageError(message)
     vehicles = options.vehicle or [DEFAULT_VEHICLE]
     if len(vehicles) > 1:
@@ -201,6 +201,12 @@ def _parser() -> argparse.ArgumentParser:
         "--measures",
         metavar="M,M",
         help="only these of the scheme, separated by commas, as rollover needs no runs",
+    )
+    group.add_argument(
+        "--class",
+        dest="vehicle_class",
+        metavar="C",
+        help="of vehicles, whose own limits count: of pbs tanker (of dangerous goods) and bus",
     )
     group.add_argument("--level", metavar="L", help="of the scheme; unless given its easiest one decides")
     group.add_argument(

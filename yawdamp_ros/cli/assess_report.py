@@ -38,6 +38,7 @@ def record(assessed: Assessment) -> dict[str, object]:
                 "limit": _limit(finding),
                 "level_reached": None if finding.reached is None else names[finding.reached] or None,
                 "reason": finding.reason or None,
+                "assumes": getattr(finding.measure, "assumes", "") or None,
             }
             for finding in assessed.findings
         ],
@@ -198,8 +199,8 @@ def _print_notes(findings: Sequence[Finding]) -> None:
     for finding in findings:
         if finding.ambiguity:
             print(f"ambiguous: {finding.ambiguity}")
-        if finding.value is not None and (caveat := getattr(finding.measure, "caveat", "")):
-            print(f"{finding.measure.name}: {caveat}")
+        if finding.value is not None and (assumes := getattr(finding.measure, "assumes", "")):
+            print(textwrap.fill(f"{finding.measure.name} assumes: {assumes}", WIDTH))
     if any(limit is None for finding in findings if finding.value is not None for limit in finding.limits):
         print(
             "--srt G, the static rollover threshold, decides on the level of PBS for rearward amplification"

@@ -6,6 +6,7 @@ import json
 import numpy as np
 
 from yawdamp_ros.analysis import Scheme
+from yawdamp_ros.analysis.measures import ALL_MEASURES
 from yawdamp_ros.analysis.points import Draws
 from yawdamp_ros.analysis.share import SchemeStudy, Share, share_of
 from yawdamp_ros.analysis.study import Study, evaluate_all
@@ -75,3 +76,5 @@ def _print(name: str, scheme: Scheme, options: argparse.Namespace, share: Share)
         print_table("What decides", ("measure", "fails in", "alone in"), rows, width=80)
     if share.unknown:
         print(f"not known: {', '.join(share.unknown)}")
+    if assuming := [name for name in share.failing if getattr(ALL_MEASURES[name], "assumes", "")]:
+        print(f"by assumptions for {', '.join(assuming)}")

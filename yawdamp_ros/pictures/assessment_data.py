@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from yawdamp_ros.analysis import AnalysisError, Assessment, Turn, low_speed_turn
-from yawdamp_ros.analysis.swept_path import STATIONS, envelope, on_guide
+from yawdamp_ros.analysis.swept_path import envelope, on_guide, stations
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.pictures.placement import placed
 from yawdamp_ros.vehicle import (
@@ -165,11 +165,11 @@ def turn_view(vehicle: Vehicle) -> dict[str, object] | None:
     except AnalysisError:
         return None
     inner, outer = envelope(turn)
-    stations = np.linspace(-sum(unit.leader for unit in turn.geometry), float(turn.way[-1]), STATIONS)
-    shown = stations <= _last_shown(turn)
+    places = stations(turn)
+    shown = places <= _last_shown(turn)
     widest = int(np.argmax(inner - outer))
-    inside = on_guide(turn, stations[shown], inner[shown])
-    outside = on_guide(turn, stations[shown], outer[shown])
+    inside = on_guide(turn, places[shown], inner[shown])
+    outside = on_guide(turn, places[shown], outer[shown])
     last, end = len(turn.geometry) - 1, turn.way <= _last_shown(turn)
     front = turn.geometry[0]
 
@@ -182,12 +182,12 @@ def turn_view(vehicle: Vehicle) -> dict[str, object] | None:
         "name": vehicle.name,
         "width": f"{inner[widest] - outer[widest]:.2f} m",
         "across": [
-            [float(value[0]) for value in on_guide(turn, stations[[widest]], np.array([edge]))]
+            [float(value[0]) for value in on_guide(turn, places[[widest]], np.array([edge]))]
             for edge in (inner[widest], outer[widest])
         ],
         "inner": _points(inside),
         "outer": _points(outside),
-        "guide": _points(on_guide(turn, stations[shown], np.zeros(int(shown.sum())))),
+        "guide": _points(on_guide(turn, places[shown], np.zeros(int(shown.sum())))),
         "corner": _points(corner),
         "last": _points(behind),
         "bodies": [_bodies(turn, int(place)) for place in np.linspace(0, int(end.sum()) - 1, SHOWN)],

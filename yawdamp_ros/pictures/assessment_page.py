@@ -27,6 +27,7 @@ from yawdamp_ros.analysis.yaw_damping import PULSE_WIDTH
 from yawdamp_ros.dynamics import LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.pictures.assessment_data import differing, side_view, turn_view, vehicle_tables
+from yawdamp_ros.pictures.measure_charts import measure_charts
 from yawdamp_ros.pictures.page import page_text
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, Unit, Vehicle
 
@@ -117,6 +118,7 @@ def assessment_page(
             for one in assessments
         ],
         "turns": [turn for one in assessments if (turn := turn_view(one.vehicle))],
+        "pictures": measure_charts(first),
         "roll": _roll_curves(vehicle) if set(ROLLOVER) & set(found) else None,
         "units": [_unit(unit) for unit in vehicle.units],
         "couplings": vehicle.hitches,
@@ -246,9 +248,9 @@ def _notes(findings: Sequence[Finding]) -> str:
     notes = list(dict.fromkeys(f"No value: {finding.reason}." for finding in findings if finding.reason))
     notes += [f"Ambiguous: {finding.ambiguity}." for finding in findings if finding.ambiguity]
     notes += [
-        f"{finding.measure.name.replace('_', ' ')}: {caveat}."
+        f"{finding.measure.name.replace('_', ' ').capitalize()} assumes: {assumes}."
         for finding in findings
-        if finding.value is not None and (caveat := getattr(finding.measure, "caveat", ""))
+        if finding.value is not None and (assumes := getattr(finding.measure, "assumes", ""))
     ]
     if any(limit is None for f in findings if f.value is not None for limit in f.limits):
         notes.append("The PBS level of rearward amplification takes the static rollover threshold (--srt).")

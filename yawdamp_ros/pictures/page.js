@@ -39,7 +39,8 @@ function chart(parent, title, xLabel, yLabel, series, caption) {
   if (series.length > 1 || caption) {
     const box = make("div", { class: "legend" }, figure);
     if (series.length > 1) {
-      series.forEach((each) => make("span", { style: `--key:${colour(each.colour)}` }, box, each.name));
+      series.filter((each) => each.name).forEach((each) => make("span",
+        { style: `--key:${colour(each.colour)}` }, box, each.name));
     }
   }
   if (caption) make("figcaption", {}, figure, caption);
@@ -68,9 +69,10 @@ function chart(parent, title, xLabel, yLabel, series, caption) {
     draw("text", { x: 4, y: 10 }, svg, yLabel);
     for (const each of series) {
       draw("polyline", { points: points(each.xs, each.ys, x, y), fill: "none", stroke: colour(each.colour),
-        "stroke-width": 1.8, "stroke-linejoin": "round" }, svg);
+        "stroke-width": 1.8, "stroke-linejoin": "round", "stroke-dasharray": each.dash || "none" }, svg);
     }
   }
   new ResizeObserver(render).observe(figure);
   render();
+  return figure;
 }
