@@ -69,8 +69,9 @@ moving-picture: setup  ## write docs/jackknife.gif
 reproduction: setup  ## write docs/report_reproduction.md and the pictures of docs/ from the code
 	@$(BIN)/python docs/reproduce.py
 
-parameters: setup  ## write the node's parameters into config/sim.yaml
+parameters: setup  ## write the node's parameters into config/sim.yaml, and the schema for editors
 	@$(BIN)/python docs/parameter_table.py
+	@$(BIN)/python -m yawdamp_ros.vehicle.editor_schema
 
 lock: setup  ## renew requirements.lock and requirements-noble.lock
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check uv

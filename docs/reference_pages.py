@@ -106,7 +106,7 @@ def _vehicle_file() -> str:
         "# Vehicle file\n\n"
         "A vehicle file is YAML in SI units and radians. Positions are measured from the centre of gravity "
         "of the unit, forward positive. An editor that reads JSON Schema checks a file against "
-        "`config/vehicle.schema.json` while you type.\n"
+        "`config/vehicle_file.schema.json` while you type; it has the other spellings, too.\n"
         f"{sections}"
     )
 
