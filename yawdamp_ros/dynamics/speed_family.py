@@ -1,6 +1,6 @@
 """A model at any speed: its matrices are ``constant + by_inverse / u + by_speed u``."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,8 +10,8 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.dynamics.linear_model import MODELS
 from yawdamp_ros.vehicle import Vehicle
 
-_BASE = 8.0
-"""Speed [m/s]. The parts follow from the matrices at this speed, twice this speed and four times it."""
+SPEEDS = (8.0, 16.0, 32.0)
+"""Speeds that the parts follow from [m/s], each twice the one before it."""
 
 
 class SpeedParts(NamedTuple):
@@ -28,16 +28,16 @@ class SpeedParts(NamedTuple):
     by_speed: FloatArray
 
     @classmethod
-    def of(cls, values: Callable[[float], FloatArray]) -> "SpeedParts":
-        """Find the parts of numbers that are a function of the speed [m/s].
+    def of(cls, values: Sequence[FloatArray] | FloatArray) -> "SpeedParts":
+        """Find the parts of numbers that are known at each of `SPEEDS`.
 
         The result is exact for numbers with a single part, because the speeds are powers of two.
         """
-        low, middle, high = (values(_BASE * factor) for factor in (1.0, 2.0, 4.0))
+        low, middle, high = values
         first, second = middle - low, high - middle
         speed = (2.0 * second - first) / 3.0
         inverse = 2.0 * (speed - first)
-        return cls(low - inverse - speed, inverse * _BASE, speed / _BASE)
+        return cls(low - inverse - speed, inverse * SPEEDS[0], speed / SPEEDS[0])
 
     def at(self, speed: float) -> FloatArray:
         """Return the numbers at a speed [m/s]."""
@@ -58,7 +58,7 @@ class StateMatrices(NamedTuple):
     @classmethod
     def of(cls, vehicle: Vehicle, model: str, count: int) -> "StateMatrices":
         """Find the matrices of a stack of so many vehicles, in one of `MODELS`."""
-        parts = SpeedParts.of(lambda speed: MODELS[model](vehicle, speed)[0])
+        parts = SpeedParts.of([MODELS[model](vehicle, speed)[0] for speed in SPEEDS])
         shape = (count, *parts.constant.shape[-2:])
         return cls(SpeedParts._make(np.broadcast_to(part, shape) for part in parts))
 

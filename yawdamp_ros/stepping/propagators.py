@@ -1,12 +1,13 @@
 """The matrices of a step at any speed: the zero-order hold by matrix exponential."""
 
 import math
+from typing import cast
 
 import numpy as np
 
 from yawdamp_ros.dynamics import LOWEST_SPEED, LinearModel, linear_model
 from yawdamp_ros.dynamics.kinematics import FloatArray
-from yawdamp_ros.dynamics.speed_family import SpeedParts
+from yawdamp_ros.dynamics.speed_family import SPEEDS, SpeedParts
 from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT, Propagator
 
 LONGEST_BLOCK = 32
@@ -35,7 +36,7 @@ class Propagators:
         self._vehicle, self._model, self._step_size = model.vehicle, model.model, step_size
         self._size = len(model.state_matrix)
         self._block = _block_length(self._size)
-        self._parts = SpeedParts.of(self._numbers)
+        self._parts = SpeedParts.of(self._numbers(np.array(SPEEDS)))
         self._norms = [float(np.abs(self._rates(part)).sum(axis=0).max()) for part in self._parts]
 
     def at(self, speed: float) -> Propagator:
@@ -57,16 +58,17 @@ class Propagators:
         outputs = numbers[(self._size + 2) ** 2 :].reshape(-1, width)
         return Propagator(speed, _steps(step, self._size, self._block), np.asfortranarray(outputs))
 
-    def _numbers(self, speed: float) -> FloatArray:
-        """Rates over a step of states, yaw and steer angle, and outputs, in a row."""
-        model = linear_model(self._vehicle, speed, self._model)
-        rates = np.zeros((self._size + 2, self._size + 2))
-        rates[: self._size, : self._size] = model.state_matrix
-        rates[: self._size, -1] = model.input_matrix
-        rates[self._size, 1] = 1.0  # yaw, by the yaw rate of the lead unit
+    def _numbers(self, speeds: FloatArray) -> FloatArray:
+        """Rates over a step of states, yaw and steer angle, and outputs, in a row for each speed."""
+        model = linear_model(self._vehicle, cast("float", speeds), self._model)  # as of a stack
+        count, size = len(speeds), self._size
+        rates = np.zeros((count, size + 2, size + 2))
+        rates[:, :size, :size] = model.state_matrix
+        rates[:, :size, -1] = model.input_matrix
+        rates[:, size, 1] = 1.0  # yaw, by the yaw rate of the lead unit
         rates *= self._step_size
-        outputs = np.column_stack([model.output_matrix, model.feedthrough])
-        return np.concatenate([rates.reshape(-1), outputs.reshape(-1)])
+        outputs = np.concatenate([model.output_matrix, model.feedthrough[..., np.newaxis]], axis=-1)
+        return np.concatenate([rates.reshape(count, -1), outputs.reshape(count, -1)], axis=-1)
 
     def _rates(self, numbers: FloatArray) -> FloatArray:
         width = self._size + 2
