@@ -63,6 +63,14 @@ def test_a_wider_tandem_asks_for_more_friction() -> None:
     assert wide > 3.0 * narrow
 
 
+def test_trailer_axles_that_steer_ask_less_of_the_steered_tyres() -> None:
+    locked, steering = (
+        steer_tyre_friction_demand(load_vehicle("tractor_semitrailer", changes))
+        for changes in ([], ["units.1.axles.*.low_speed_steering=0.4"])
+    )
+    assert 0.5 * locked < steering < locked
+
+
 def test_the_driver_keeps_the_tyre_on_its_path(monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[Outputs] = []
     outputs = NonlinearDynamics.outputs

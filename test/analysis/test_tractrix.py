@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 
 from yawdamp_ros.analysis import AnalysisError, low_speed_turn
 from yawdamp_ros.analysis.swept_path import (
+    along_guide,
     envelope,
     frontal_swing,
     frontal_swing_difference_of_maxima,
@@ -17,7 +18,7 @@ from yawdamp_ros.analysis.swept_path import (
     tail_swing,
 )
 from yawdamp_ros.analysis.tractrix import RADIUS, Turn
-from yawdamp_ros.vehicle import Axle, Unit, Vehicle, builtin_vehicles, load_vehicle
+from yawdamp_ros.vehicle import Axle, Unit, Vehicle, VehicleError, builtin_vehicles, load_vehicle
 
 MILLIMETRE = 1e-3
 TRUCK = Vehicle(
@@ -76,10 +77,13 @@ def test_swept_path_and_frontal_swing_lie_below_those_of_a_circle() -> None:
     assert low_speed_swept_path(TRUCK) < circle - (rear - unit.half_width)
 
 
-@pytest.mark.parametrize("name", builtin_vehicles())
-def test_it_is_an_independent_integration_to_a_millimetre(name: str) -> None:
+@pytest.mark.parametrize(
+    "name, changes",
+    [*((name, []) for name in builtin_vehicles()), ("a_double", ["units.1.axles.*.low_speed_steering=0.3"])],
+)
+def test_it_is_an_independent_integration_to_a_millimetre(name: str, changes: list[str]) -> None:
     """Points in the plane, each led by a rod: no angle is a state there."""
-    turn = low_speed_turn(load_vehicle(name))
+    turn = low_speed_turn(load_vehicle(name, changes))
     geometry, arc = turn.geometry, turn.radius * turn.angle
 
     def guide(way: float) -> tuple[complex, complex]:
@@ -92,6 +96,7 @@ def test_it_is_an_independent_integration_to_a_millimetre(name: str) -> None:
         """Velocity of the middle axles, places as complex numbers."""
         out = []
         at, velocity = guide(way)
+        ahead = 1.0 + 0.0j
         for index, unit in enumerate(geometry):
             # The rod of the lead unit reaches from a point abreast of the axle to the guided tyre.
             offset = -1j * unit.guide if index == 0 else 0.0
@@ -99,11 +104,16 @@ def test_it_is_an_independent_integration_to_a_millimetre(name: str) -> None:
             rigid = complex(unit.leader, 0.0) + offset
             heading = rod / rigid
             heading /= abs(heading)
-            turning = (velocity * heading.conjugate()).imag / unit.leader
-            forward = (velocity * heading.conjugate()).real - (unit.guide * turning if index == 0 else 0.0)
-            out.append(forward * heading)
-            at = places[index] + unit.hitch * heading
-            velocity = (forward + 1j * unit.hitch * turning) * heading
+            led = velocity * heading.conjugate()
+            # Axles that steer, all alike here, roll where they point.
+            steered = unit.gains[0] * np.angle(ahead / heading) if unit.gains else 0.0
+            moved = led.real * complex(1.0, -math.tan(steered))
+            turning = (led.imag - moved.imag) / unit.leader
+            if index == 0:
+                moved -= unit.guide * turning
+            out.append(moved * heading)
+            at, ahead = places[index] + unit.hitch * heading, heading
+            velocity = (moved + 1j * unit.hitch * turning) * heading
         return np.array(out)
 
     start, found = turn.position[0].astype(complex), turn.position.copy()
@@ -187,3 +197,39 @@ def test_what_cannot_turn_says_so() -> None:
         low_speed_turn(TRUCK, radius=5.0)
     with pytest.raises(AnalysisError, match="no two supports to turn about"):
         low_speed_turn(replace(TRUCK, units=(replace(TRUCK.units[0], axles=TRUCK.units[0].axles[:1]),)))
+
+
+def test_axles_that_steer_against_the_articulation_come_to_their_closed_form() -> None:
+    """The axle moves at its steer angle to the unit: hitch, axle and centre form a triangle."""
+    gain = 0.5
+    vehicle = load_vehicle("tractor_semitrailer", [f"units.1.axles.*.low_speed_steering={gain}"])
+    turn = low_speed_turn(vehicle, radius=20.0, angle=8.0 * math.pi)
+    end = int(np.searchsorted(turn.way, 20.0 * turn.angle)) - 1
+    lead, unit = turn.geometry
+    hitch = math.hypot(math.sqrt(20.0**2 - lead.leader**2) - lead.guide, lead.hitch)
+    angle = gain * (turn.yaw[end, 0] - turn.yaw[end, 1])
+    assert angle > 0.1
+    expected = unit.leader * math.sin(angle) + math.sqrt(hitch**2 - (unit.leader * math.cos(angle)) ** 2)
+    assert abs(turn.position[end, 1] - 20.0j) == pytest.approx(expected, abs=1e-6)
+
+
+def test_steering_axles_narrow_the_swept_path_whose_inside_is_that_of_their_side() -> None:
+    locked, steering = (
+        load_vehicle("tractor_semitrailer", changes)
+        for changes in ([], ["units.1.axles.*.low_speed_steering=0.4"])
+    )
+    assert low_speed_swept_path(steering) < low_speed_swept_path(locked) - 0.5
+    inner, _ = envelope(low_speed_turn(steering))
+    turn = low_speed_turn(steering)
+    unit = turn.geometry[1]
+    for forward in np.linspace(unit.rear, unit.front, 7):
+        _, inwards = along_guide(turn, *turn.path(1, float(forward), unit.half_width))
+        assert inwards.max() <= inner.max() + 5 * MILLIMETRE
+
+
+@pytest.mark.parametrize(
+    "key", ["units.0.axles.1.low_speed_steering=0.4", "units.1.axles.0.low_speed_steering=3"]
+)
+def test_low_speed_steering_is_of_trailers_and_within_reason(key: str) -> None:
+    with pytest.raises(VehicleError, match=r"low_speed_steering: .*expected"):
+        load_vehicle("tractor_semitrailer", [key])

@@ -127,7 +127,9 @@ def friction_use(vehicle: Vehicle) -> tuple[FloatArray, FloatArray]:
     state = dynamics.initial_state(speed)
     state[0], state[1] = -APPROACH - place, lead.guide
     length = APPROACH + turn.radius * turn.angle + sum(unit.leader for unit in turn.geometry)
-    run = _driven(dynamics, state, dynamics.inputs(speed=speed), steering, length / speed)
+    gains = np.array([axle.low_speed_steering for unit in vehicle.units for axle in unit.axles])
+    inputs = dynamics.inputs(speed=speed)
+    run = _driven(dynamics, state, inputs, steering, length / speed, gains=gains)
     steered = [
         wheel
         for number, axle in enumerate(vehicle.units[0].axles)
@@ -309,13 +311,21 @@ def _driven(  # noqa: PLR0913, PLR0917 - the whole of one run
     steering: Callable[[complex, float], float],
     duration: float,
     slowest: float = -1.0,
+    gains: FloatArray | None = None,
 ) -> Run:
-    """Drive for a time, or until the speed is low, steering by position and yaw of the lead unit."""
-    row = inputs.copy()
+    """Drive for a time, or until the speed is low, steering by position and yaw of the lead unit.
+
+    Axles steer against the articulation of their unit's front hitch by gains, if there are any.
+    """
+    gained = [unit for unit, each in enumerate(dynamics.vehicle.units) for _ in each.axles]
+    row, layout = inputs.copy(), dynamics.layout
     states: list[FloatArray] = []
     rows: list[FloatArray] = []
     while len(states) * EVERY * STEP < duration and state[dynamics.layout.velocity.start] > slowest:
         row[STEERING] = steering(complex(state[0], state[1]), float(state[2]))
+        if gains is not None:
+            articulation = np.concatenate([[0.0], state[layout.articulation]])
+            row[dynamics.input_layout.axle_steering] = -gains * articulation[gained]
         taken = dynamics.steps(state, row, STEP, EVERY, EVERY)
         if taken.rolled_over:
             message = f"{dynamics.vehicle.name}: {taken.rolled_over} rolls over"

@@ -2,6 +2,7 @@
 
 Everything is measured across the path of the guided tyre (`low_speed_turn`): inwards is positive. A side of a
 body is furthest in abreast of its unsteered axles, for there it moves along itself; furthest out are corners.
+Where axles steer, that place moves along the side.
 
 The definitions are those of the Australian PBS scheme, read in short at nhvr.gov.au and else in secondary
 sources: Standards and Vehicle Assessment Rules, 2008.
@@ -20,6 +21,8 @@ from yawdamp_ros.vehicle import Vehicle
 
 STATIONS = 4000
 """Places along the guided path at which widths are taken."""
+SIDES = 61
+"""Points of the side of a unit whose axles steer."""
 
 
 def low_speed_swept_path(vehicle: Vehicle) -> float:
@@ -187,7 +190,8 @@ def envelope(turn: Turn) -> tuple[FloatArray, FloatArray]:
     inner = np.full(STATIONS, -np.inf)
     outer = np.zeros(STATIONS)
     for index, unit in enumerate(turn.geometry):
-        inner = np.maximum(inner, _across(turn, index, 0.0, unit.half_width, places))
+        for forward in np.linspace(unit.rear, unit.front, SIDES) if unit.gains else (0.0,):
+            inner = np.maximum(inner, _across(turn, index, float(forward), unit.half_width, places))
         for end in (unit.front, unit.rear):
             if unit.body:
                 outer = np.minimum(outer, _across(turn, index, end, -unit.half_width, places))

@@ -6,8 +6,9 @@ unit, and its heading follows the point that leads it,
 ``psi' = sin(theta - psi) / l``
 
 per distance of the guided tyre for the lead unit (theta the direction of its path, l the distance from the
-middle axle), and ``psi' = (velocity of the hitch across the unit) / l`` for a towed one. Positions follow
-from the headings by the exact chain.
+middle axle), and ``psi' = (velocity of the hitch across the unit) / l`` for a towed one. Axles that steer
+against the articulation move aside, and that is taken off the hitch's velocity. Positions follow from the
+headings by the exact chain.
 """
 
 import math
@@ -49,6 +50,9 @@ class UnitGeometry(NamedTuple):
         Distance from the middle to the outer wall of the steered tyre; 0 for a towed unit.
     body : bool
         Whether the unit has a body: a dolly has none that swings.
+    gains : tuple of float
+        Steer angle of each unsteered axle over the articulation of the front hitch, against it; empty where
+        none steers.
     """
 
     leader: float
@@ -58,6 +62,11 @@ class UnitGeometry(NamedTuple):
     half_width: float
     guide: float
     body: bool
+    gains: tuple[float, ...] = ()
+
+    def aside(self, articulation: float) -> float:
+        """Velocity of the middle across the unit, over that along it."""
+        return -math.fsum(math.tan(gain * articulation) for gain in self.gains) / max(len(self.gains), 1)
 
 
 class Turn(NamedTuple):
@@ -156,8 +165,9 @@ def _geometry(vehicle: Vehicle) -> Iterator[UnitGeometry]:
             message = f"{vehicle.name}: {unit.name}: no two supports to turn about"
             raise AnalysisError(message)
         steered = [axle for axle in unit.axles if axle.steered]
-        rolling = [axle.position for axle in unit.axles if not (axle.steered or axle.self_steering)]
-        middle = sum(rolling) / len(rolling) if rolling else held.rear
+        rolling = [axle for axle in unit.axles if not (axle.steered or axle.self_steering)]
+        middle = sum(axle.position for axle in rolling) / len(rolling) if rolling else held.rear
+        gains = tuple(axle.low_speed_steering for axle in rolling)
         tail, nose = extent(unit)
         foremost = max(steered, key=lambda axle: axle.position) if index == 0 else None
         lengths = (
@@ -169,7 +179,9 @@ def _geometry(vehicle: Vehicle) -> Iterator[UnitGeometry]:
             _outside(foremost) if foremost else 0.0,
         )
         leader, hitch, front, rear, half_width, guide = (round(length / SAME) * SAME for length in lengths)
-        yield UnitGeometry(leader, hitch, front, rear, half_width, guide, not is_dolly(unit))
+        yield UnitGeometry(
+            leader, hitch, front, rear, half_width, guide, not is_dolly(unit), gains if any(gains) else ()
+        )
 
 
 def _outside(axle: Axle) -> float:
@@ -222,12 +234,13 @@ def _rates(yaw: Sequence[float], direction: float, geometry: Sequence[UnitGeomet
     lead = geometry[0]
     rates = [math.sin(direction - yaw[0]) / lead.leader]
     # The guided tyre is on the right, the outside of a turn to the left.
-    forward = math.cos(direction - yaw[0]) - lead.guide * rates[0]
+    forward, aside = math.cos(direction - yaw[0]) - lead.guide * rates[0], 0.0
     for ahead, unit, mine, own in zip(geometry, geometry[1:], yaw, yaw[1:], strict=False):
-        angle, across = mine - own, ahead.hitch * rates[-1]
+        angle, across = mine - own, aside + ahead.hitch * rates[-1]
         sideways = forward * math.sin(angle) + across * math.cos(angle)
         forward = forward * math.cos(angle) - across * math.sin(angle)
-        rates.append(sideways / unit.leader)
+        aside = forward * unit.aside(angle)
+        rates.append((sideways - aside) / unit.leader)
     return rates
 
 

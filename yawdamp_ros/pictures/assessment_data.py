@@ -87,7 +87,13 @@ def vehicle_tables(vehicle: Vehicle) -> list[dict[str, object]]:
 
 
 def _axle_row(unit: Unit, axle: Axle, key: str, marks: set[str]) -> list[str]:
-    kind = ", ".join(["steered"] * axle.steered + ["driven"] * bool(axle.driven))
+    kinds = {
+        "steered": axle.steered,
+        "driven": axle.driven,
+        "self-steering": axle.self_steering,
+        f"low-speed steering {axle.low_speed_steering:g}": axle.low_speed_steering,
+    }
+    kind = ", ".join(name for name, is_so in kinds.items() if is_so)
     return [
         unit.name,
         f"{axle.position:.2f}",

@@ -417,6 +417,7 @@ def _build_unit(
             steered=axle.get("steered") is True,
             commanded=axle.get("steered") == "commanded",
             self_steering=axle.get("self_steering", False),
+            low_speed_steering=_number(axle.get("low_speed_steering", 0.0)),
             tyres=axle.get("tyres"),
             static_load=None if load is None else _number(load),
             tyre=_tyre(axle.get("tyre"), source),
@@ -537,6 +538,10 @@ def _check_combination(data: dict[str, Any], source: str) -> None:
             raise VehicleError(
                 source, f"{key}.rear_hitch", f"missing: {name} tows the next unit and needs one"
             )
+        for place, axle in enumerate(unit["axles"]):
+            if "low_speed_steering" in axle and (index == 0 or axle.get("self_steering")):
+                problem = "expected it on an axle of a towed unit that does not caster"
+                raise VehicleError(source, f"{key}.axles.{place}.low_speed_steering", problem)
         _check_lengths(unit, key, source)
         _check_static_loads(unit, key, source)
     names = [unit["name"] for unit in units]

@@ -38,6 +38,9 @@ class Axle:
         Whether its wheels caster at walking speed; at speed they are locked, as such axles are.
     commanded : bool
         Whether it is steered by a command of its unit's own; only the nonlinear model steers it.
+    low_speed_steering : float
+        Steer angle at walking speed over the articulation of the unit's front hitch, against it; at speed
+        such an axle is locked.
     tyres : int or None
         Number of tyres where the stiffness comes from the load on each (`fancher_stiffness`).
     static_load : float or None
@@ -81,6 +84,7 @@ class Axle:
     driven: bool | None = None
     brake_share: float | None = None
     self_steering: bool = False
+    low_speed_steering: float = 0.0
 
 
 @dataclass(frozen=True)
