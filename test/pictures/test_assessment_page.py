@@ -166,8 +166,9 @@ def test_page_of_a_scheme_tells_who_what_and_whether_and_compares(
     assert shown["needed"] <= width
     assert shown["outside"] == []
     assert shown["verdict"].startswith(
-        "FAILS pbs, level 2; level reached: none; decided by rearward amplification steer axle"
+        "a_double: FAILS pbs, level 2; level reached: none; decided by rearward amplification steer axle"
     )
+    assert "interlink: meets what is known of pbs" in shown["verdict"]
     assert shown["heading"].startswith(
         "Project: BridgeAuthor: An assessorDate: 2026-11-24Scheme: Performance"
     )

@@ -94,7 +94,7 @@ def assessment_page(
     >>> page.startswith("<!DOCTYPE html>")
     True
     """
-    first = assessments[0]
+    first, several = assessments[0], len(assessments) > 1
     vehicle, model, findings = first.vehicle, first.model, first.findings
     found = {finding.measure.name: finding for finding in findings}
 
@@ -106,13 +106,13 @@ def assessment_page(
     data = {
         "title": f"{names}: {_subject(first.scheme)}",
         "heading": _heading(first, heading or Heading()),
-        "subtitle": f"{model} model, {len(vehicle.units)} units, "
+        "subtitle": (f"{vehicle.name}: " if several else "") + f"{model} model, {len(vehicle.units)} units, "
         f"{sum(unit.mass for unit in vehicle.units) / 1000.0:.1f} t, own speed {at:.2f} {unit}",
-        "verdict": _verdict(first),
+        "verdicts": [_verdict(one, named=several) for one in assessments],
         "rows": [_row(finding, first, units) for finding in findings],
         "speed_unit": unit,
         "notes": _notes(findings),
-        "compared": _compared(assessments, units) if len(assessments) > 1 else None,
+        "compared": _compared(assessments, units) if several else None,
         "drawings": [
             {"name": one.vehicle.name, **side_view(one.vehicle), "tables": vehicle_tables(one.vehicle)}
             for one in assessments
@@ -147,8 +147,8 @@ def _heading(assessment: Assessment, heading: Heading) -> list[list[str]]:
     return [[name, text] for name, text in said.items() if text]
 
 
-def _verdict(assessment: Assessment) -> dict[str, object]:
-    """Overall verdict as a sentence, and whether it is a failure."""
+def _verdict(assessment: Assessment, *, named: bool) -> dict[str, object]:
+    """Overall verdict as a sentence, with the vehicle's name or without, and whether it is a failure."""
     judged = [finding for finding in assessment.findings if finding.passed is not None]
     failures = [finding.measure.name.replace("_", " ") for finding in judged if not finding.passed]
     if assessment.scheme.name == DEFAULT_SCHEME:
@@ -159,7 +159,8 @@ def _verdict(assessment: Assessment) -> dict[str, object]:
         )
     else:
         text = assessment.sentence.replace("_", " ")
-    return {"text": text[0].upper() + text[1:], "fails": bool(failures)}
+    shown = f"{assessment.vehicle.name}: {text}" if named else text[0].upper() + text[1:]
+    return {"text": shown, "fails": bool(failures)}
 
 
 def _compared(assessments: Sequence[Assessment], units: str) -> list[dict[str, object]]:
