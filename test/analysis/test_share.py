@@ -45,17 +45,20 @@ def test_the_share_is_that_of_vehicles_judged_one_by_one() -> None:
 def test_the_command_says_which_share_meets_the_level_and_what_decides(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    measures = ["--measures", "static_rollover_threshold,yaw_damping_coefficient"]
-    drawn = ["--random", "20", "--range", "units.3.cg_height=1.6:3.0", "--jobs", "1"]
+    assumed = "tracking_ability_on_a_straight_path"
+    measures = ["--measures", f"static_rollover_threshold,yaw_damping_coefficient,{assumed}"]
+    drawn = ["--random", "8", "--range", "units.3.cg_height=1.6:3.0", "--jobs", "1"]
     command = ["assess", "--vehicle", "a_double", "--scheme", "pbs", *measures, *drawn]
     assert run(command) == 1
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].startswith("a_double: ")
-    assert lines[0].endswith(" % of 20 vehicles meet pbs (2 of 18 measures)")
+    assert lines[0].endswith(" % of 8 vehicles meet pbs (3 of 18 measures)")
     assert any(line.startswith("│ static_rollover_threshold │") for line in lines)
+    assert lines[-1] == f"by assumptions for {assumed}"
     assert run([*command, "--format", "json"]) == 1
     found = json.loads(capsys.readouterr().out)
     assert 0.0 < found["meeting"] < 1.0
+    assert found["assuming"] == [assumed]
     assert found["failing_alone"]["static_rollover_threshold"] == pytest.approx(1.0 - found["meeting"])
 
 

@@ -18,7 +18,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import trapezoid
 from scipy.special import ndtri
 
 from yawdamp_ros.analysis.bodies import corners, lateral_positions
@@ -57,7 +56,10 @@ BOUNCE, BOUNCE_DAMPING = 2.0, 0.2
 """Natural frequency [Hz] and damping ratio of the bodies on their springs: 96/53/EC, annex II, allows at most
 and demands at least these of road-friendly suspensions."""
 
-_WAVENUMBERS = math.tau * np.geomspace(1.0 / LENGTH, 1.0 / SHORTEST, 500)
+_WAVENUMBERS = math.tau * np.geomspace(1.0 / LENGTH, 1.0 / SHORTEST, 200)
+_WEIGHTS = 0.5 * (
+    np.diff(_WAVENUMBERS, prepend=_WAVENUMBERS[0]) + np.diff(_WAVENUMBERS, append=_WAVENUMBERS[-1])
+)
 
 
 class Tracking(NamedTuple):
@@ -147,13 +149,12 @@ def tracking(vehicle: Vehicle, speed: float, index: float = INDEX) -> Tracking:
     height, crossfall = track_spectra(unevenness_of(index), _WAVENUMBERS, track)
     moved = corner_response(dynamics, steady, _WAVENUMBERS)
 
-    def variance(response: ComplexArray) -> FloatArray:
-        density = np.abs(response[..., 0]) ** 2 * crossfall + np.abs(response[..., 1]) ** 2 * height
-        return np.asarray(trapezoid(density, _WAVENUMBERS))
-
-    apart = variance(moved[:, np.newaxis] - moved[np.newaxis])
-    widths = mean[:, np.newaxis] - mean + float(ndtri(PERCENTILE)) * np.sqrt(apart)
-    return Tracking(float(widths.max()), float(np.ptp(mean)), mean, np.sqrt(variance(moved)))
+    spectra = np.column_stack([crossfall, height]) * _WEIGHTS[:, np.newaxis]
+    covariance = np.einsum("imk,jmk,mk->ij", moved, moved.conj(), spectra).real
+    variance = np.diag(covariance)
+    apart = variance[:, np.newaxis] + variance - 2.0 * covariance
+    widths = mean[:, np.newaxis] - mean + float(ndtri(PERCENTILE)) * np.sqrt(np.maximum(apart, 0.0))
+    return Tracking(float(widths.max()), float(np.ptp(mean)), mean, np.sqrt(variance))
 
 
 def corner_response(dynamics: NonlinearDynamics, steady: SteadyTurn, wavenumbers: FloatArray) -> ComplexArray:

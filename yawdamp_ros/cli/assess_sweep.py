@@ -58,6 +58,7 @@ def _record(name: str, scheme: Scheme, options: argparse.Namespace, share: Share
         "failing": share.failing,
         "failing_alone": share.alone,
         "unknown": share.unknown,
+        "assuming": _assuming(share),
     }
 
 
@@ -76,5 +77,10 @@ def _print(name: str, scheme: Scheme, options: argparse.Namespace, share: Share)
         print_table("What decides", ("measure", "fails in", "alone in"), rows, width=80)
     if share.unknown:
         print(f"not known: {', '.join(share.unknown)}")
-    if assuming := [name for name in share.failing if getattr(ALL_MEASURES[name], "assumes", "")]:
+    if assuming := _assuming(share):
         print(f"by assumptions for {', '.join(assuming)}")
+
+
+def _assuming(share: Share) -> list[str]:
+    """Measures with a limit whose value rests on assumptions."""
+    return [name for name in share.failing if getattr(ALL_MEASURES[name], "assumes", "")]
