@@ -123,22 +123,22 @@ def under_way(command: list[str], output: Path) -> Iterator[subprocess.Popen[str
 
 def test_interrupted_sweep_goes_on_from_its_file(tmp_path: Path) -> None:
     output = tmp_path / "long.csv"
-    command = long_sweep(6000, output)
+    command = long_sweep(3500, output)
     with under_way(command, output) as process:
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
     assert (process.returncode, errors) == (130, "python -m yawdamp_ros sweep: interrupted\n")
     written = output.read_text()
-    assert 500 <= written.count("\n") - 1 < 6000
+    assert 500 <= written.count("\n") - 1 < 3500
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=100)
     assert (done.returncode, done.stderr) == (0, "")
     assert output.read_text().startswith(written)
-    assert len(rows(output)) == 6000
+    assert len(rows(output)) == 3500
 
 
 def test_worker_that_ends_is_one_line_and_leaves_what_is_written(tmp_path: Path) -> None:
     output = tmp_path / "long.csv"
-    command = long_sweep(8000, output)
+    command = long_sweep(4000, output)
     with under_way(command, output) as process:
         children = psutil.Process(process.pid).children()
         next(child for child in children if "spawn_main" in " ".join(child.cmdline())).kill()
@@ -152,7 +152,7 @@ def test_worker_that_ends_is_one_line_and_leaves_what_is_written(tmp_path: Path)
 
 def test_a_killed_sweep_leaves_no_worker_behind(tmp_path: Path) -> None:
     output = tmp_path / "long.csv"
-    with under_way(long_sweep(8000, output), output) as process:
+    with under_way(long_sweep(4000, output), output) as process:
         workers = psutil.Process(process.pid).children()
         process.kill()
     _, alive = psutil.wait_procs(workers, timeout=60)
