@@ -217,9 +217,9 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
         raise DriveError(message)
     start, middle, end = _parts(drive.duration, fitted_share)
 
-    def outputs(values: Mapping[str, float]) -> Mapping[str, FloatArray]:
-        inputs = inputs_of(drive, own, delay=values.get("steering_delay", 0.0))
-        return predictor(subject.vehicle_with(values), steered(inputs, values))
+    def outputs(values: Mapping[str, float], instants: int | None = None) -> Mapping[str, FloatArray]:
+        inputs = steered(inputs_of(drive, own, delay=values.get("steering_delay", 0.0)), values)
+        return predictor(subject.vehicle_with(values), Inputs(*(each[:instants] for each in inputs)))
 
     first = outputs({each.name: each.start for each in subject.parameters})
     if (ended := np.isnan(np.column_stack([*first.values()])).any(axis=1)).any():
@@ -233,10 +233,12 @@ def identify(  # noqa: PLR0913 - each is one setting of a fit
         for match in chosen
         if (kept := (match.channel.times >= start) & (match.channel.times <= middle)).any()
     ]
+    # The motion after the fitted part is not needed for the fit.
+    instants = int(np.searchsorted(times, middle)) + 1
     fit = maximise(
         subject.parameters,
-        outputs,
-        times,
+        partial(outputs, instants=instants),
+        times[:instants],
         series,
         [OFFSET_SPREAD[quantity_of(each.name)] for each in series],
     )
