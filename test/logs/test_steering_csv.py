@@ -89,12 +89,5 @@ def test_the_newest_sample_is_in_force() -> None:
     ]
 
 
-def test_a_window_starts_anew_and_refuses_to_be_empty() -> None:
-    log = SteeringLog("log", [0.0, 1.0, 2.0, 3.0], [0.0, 0.1, 0.2, 0.3])
-    assert log.window(1.0, 1.0) == SteeringLog("log", (0.0, 1.0), (0.1, 0.2))
-    with pytest.raises(LogError, match="log: no sample between 5 s and inf s; the log lasts 3 s"):
-        log.window(5.0, None)
-
-
 def test_a_hand_wheel_log_is_divided_by_its_ratio() -> None:
     assert SteeringLog("log", [0.0], [1.688]).divided(16.88).angles == [0.1]

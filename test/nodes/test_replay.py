@@ -162,20 +162,24 @@ def test_a_minute_of_real_driving_drives_the_node(graph: Graph) -> None:
             check_all_came([message.data for message in arrived], published, lost)
 
 
-def test_the_speed_of_a_drive_is_published_beside_its_steering_and_in_step(
+def test_speed_and_acceleration_of_a_drive_are_published_beside_its_steering_and_in_step(
     graph: Graph, tmp_path: Path
 ) -> None:
     path = tmp_path / "drive.csv"
     path.write_text(
-        "time,steering,speed_kmh\n" + "".join(f"{0.02 * row},{0.001 * row},{36 + row}\n" for row in range(50))
+        "time,steering,speed_kmh,acceleration\n"
+        + "".join(f"{0.02 * row},{0.001 * row},{36 + row},{0.1 * row}\n" for row in range(50))
     )
-    graph.listen({"/steering": Float64, "/speed": Float64})
+    graph.listen({"/steering": Float64, "/speed": Float64, "/acceleration": Float64})
     status, output, errors = outcome(graph.command("replay", str(path)))
     assert (status, errors) == (0, "")
-    assert "with 50 speeds of 10.00 to 23.61 m/s" in output
+    assert "with 50 speeds of 10.00 to 23.61 m/s, for a node whose longitudinal_source is speed" in output
+    assert "with 50 accelerations of 0.00 to 4.90 m/s², for a node whose longitudinal_source is" in output
     until(lambda: len(angles(graph)) == 50, "the whole log")
     speeds = [message.data for message in graph.messages("/speed")]
     np.testing.assert_allclose(speeds, (36.0 + np.arange(50)) / 3.6)
+    accelerations = [message.data for message in graph.messages("/acceleration")]
+    np.testing.assert_allclose(accelerations, 0.1 * np.arange(50))
 
 
 def test_what_the_node_made_of_a_drive_simulate_makes_of_its_recording_to_the_last_bit(

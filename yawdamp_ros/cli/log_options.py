@@ -95,7 +95,7 @@ def chosen_log(
     """
     steering_ratio(options)
     drive = _read(path, options, duration, measured=False)
-    steering, speed = drive["steering"], drive.channels.get("speed")
+    steering = drive["steering"]
     others = [f"{name} ({each.source})" for name, each in drive.channels.items() if not followed(name)]
     if others:
         print(one_line(f"note: {drive.source}: not followed: {', '.join(others)}"), file=sys.stderr)
@@ -105,8 +105,6 @@ def chosen_log(
         steering.values.tolist(),
         drive.start_time,
         drive.warning,
-        () if speed is None else speed.times.tolist(),
-        () if speed is None else speed.values.tolist(),
         {
             name: (each.times.tolist(), each.values.tolist())
             for name, each in drive.channels.items()
@@ -115,9 +113,10 @@ def chosen_log(
     )
 
 
-def speed_line(log: SteeringLog) -> str:
-    """Describe the speed of a log."""
-    return f"{len(log.speeds)} speeds of {min(log.speeds):.2f} to {max(log.speeds):.2f} m/s"
+def input_line(log: SteeringLog, name: str) -> str:
+    """Describe the speed or the acceleration of a log."""
+    values, unit = log.inputs[name][1], "m/s" if name == "speed" else "m/s²"
+    return f"{len(values)} {name}s of {min(values):.2f} to {max(values):.2f} {unit}"
 
 
 def _read(path: str, options: argparse.Namespace, duration: float | None, *, measured: bool) -> Drive:

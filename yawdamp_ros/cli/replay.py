@@ -18,8 +18,9 @@ def main(arguments: Sequence[str]) -> int:
 
 def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
     from yawdamp_ros.cli.errors import UsageError  # noqa: PLC0415
-    from yawdamp_ros.cli.log_options import chosen_log, speed_line, steering_ratio  # noqa: PLC0415
+    from yawdamp_ros.cli.log_options import chosen_log, input_line, steering_ratio  # noqa: PLC0415
     from yawdamp_ros.cli.ros import parse_before_ros, require_ros  # noqa: PLC0415
+    from yawdamp_ros.simulation.inputs import LONGITUDINAL  # noqa: PLC0415
 
     options, ros_arguments = parse_before_ros(_parser(), arguments)
     if not 0.0 < options.rate < float("inf"):
@@ -27,7 +28,7 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
         raise UsageError(message)
     ratio = steering_ratio(options)
     log = chosen_log(
-        options.log, options, options.duration, lambda name: name in {"steering", "speed"}
+        options.log, options, options.duration, lambda name: name in {"steering", *LONGITUDINAL}
     ).divided(ratio)
     if options.loop and not log.duration:
         message = "--loop: the log is of one instant"
@@ -45,8 +46,9 @@ def _replay(arguments: Sequence[str], stop: StopRequest) -> int:
             f"{lowest:.4f} to {highest:.4f} rad, on {node.topic}",
             flush=True,
         )
-        if log.speeds:
-            print(f"with {speed_line(log)}, for a node whose longitudinal_source is speed", flush=True)
+        for name in (name for name in LONGITUDINAL if name in log.inputs):
+            told = input_line(log, name)
+            print(f"with {told}, for a node whose longitudinal_source is {name}", flush=True)
         with spinning(node):
             if options.wait:
                 node.wait_for_subscriber()
@@ -71,8 +73,8 @@ def _parser() -> "argparse.ArgumentParser":
 
     parser = Parser(
         "replay",
-        "Publish a recorded drive at its own pace: its steering on /steering, as road-wheel angles, and its\n"
-        "speed, where it has one, on /speed.",
+        "Publish a recorded drive at its own pace: its steering on /steering, as road-wheel angles; where\n"
+        "it has them, its speed on /speed and its acceleration on /acceleration.",
         "yawdamp replay drive.csv --column steering_wheel_angle_deg --steering-ratio 16.88\n"
         "  yawdamp replay runs/20261121-120000_interlink",
     )

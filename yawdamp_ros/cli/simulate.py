@@ -14,7 +14,7 @@ from yawdamp_ros.analysis import growth
 from yawdamp_ros.analysis.peaks import Peaks
 from yawdamp_ros.cli.console import progress_bar
 from yawdamp_ros.cli.errors import UsageError
-from yawdamp_ros.cli.log_options import add_log_options, chosen_log, log_options, speed_line, steering_ratio
+from yawdamp_ros.cli.log_options import add_log_options, chosen_log, input_line, log_options, steering_ratio
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
     Parser,
@@ -123,11 +123,11 @@ def _played(
         inputs["speed"] = times, speeds_by_acceleration(times, values, motion.speed).tolist()
         print(f"following the log's acceleration, from {motion.speed:g} m/s on")
     elif "speed" in inputs and source == "speed" and options.speed is None:
-        print(f"following the log: {speed_line(log)}")
+        print(f"following the log: {input_line(log, 'speed')}")
     left = [name for name in LONGITUDINAL if name in inputs and name != source]
     left += [name for name in inputs if name not in {*LONGITUDINAL, *motion.input_names}]
-    if log.speeds and source == "speed" and options.speed is not None:
-        print(f"--speed counts; the log's own is not followed: {speed_line(log)}")
+    if "speed" in log.inputs and source == "speed" and options.speed is not None:
+        print(f"--speed counts; the log's own is not followed: {input_line(log, 'speed')}")
         del inputs["speed"]
     if left:
         print(one_line(f"note: {log.source}: not followed: {', '.join(left)}"), file=sys.stderr)

@@ -29,11 +29,8 @@ class SteeringLog:
         Time of the first sample [ns], if the log has it; else 0.
     warning : str
         Fault of the file that did not prevent reading; else empty.
-    speed_times, speeds : sequence of float
-        Samples of the speed beside it, in s and m/s, each in force until the next; empty where the log
-        has none.
     inputs : mapping of str to (sequence of float, sequence of float)
-        Times in s and values of every other input beside it, the speed among them, by name.
+        Times in s and values of every other input beside it, by name; each value is in force until the next.
 
     Examples
     --------
@@ -47,8 +44,6 @@ class SteeringLog:
     angles: Sequence[float]
     start_time: int = 0
     warning: str = ""
-    speed_times: Sequence[float] = ()
-    speeds: Sequence[float] = ()
     inputs: Mapping[str, tuple[Sequence[float], Sequence[float]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -68,26 +63,3 @@ class SteeringLog:
     def divided(self, ratio: float) -> "SteeringLog":
         """The same log in road-wheel angles, where it holds those of the hand wheel."""
         return replace(self, angles=[angle / ratio for angle in self.angles])
-
-    def window(self, start_offset: float, duration: float | None) -> "SteeringLog":
-        """The part from an offset on, for a duration, both [s]; its time starts anew.
-
-        Raises
-        ------
-        LogError
-            If no sample is left.
-        """
-        end = float("inf") if duration is None else start_offset + duration
-        kept = [
-            (time - start_offset, angle)
-            for time, angle in zip(self.times, self.angles, strict=True)
-            if start_offset <= time <= end
-        ]
-        if not kept:
-            raise LogError(
-                self.source,
-                f"no sample between {start_offset:g} s and {end:g} s; the log lasts {self.duration:g} s",
-            )
-        times, angles = zip(*kept, strict=True)
-        start_time = self.start_time and self.start_time + round(start_offset * 1e9)
-        return replace(self, times=times, angles=angles, start_time=start_time)

@@ -14,8 +14,11 @@ from yawdamp_ros.logs import SteeringLog
 from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.stop_request import StopRequest
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
+from yawdamp_ros.simulation.inputs import LONGITUDINAL
 from yawdamp_ros.stepping.time_grid import nanoseconds
 
+STEERING = "steering"
+"""Topic of the steering."""
 POLL = 0.02
 """Interval between checks for a subscriber, a pause or its end [s]."""
 SETTLING = 0.3
@@ -23,7 +26,9 @@ SETTLING = 0.3
 
 
 class ReplayNode(Node):
-    """Publishes a steering log on ``steering``, and its speed on ``speed``; ``~/pause`` halts and resumes it.
+    """Publishes a steering log on ``steering``; ``~/pause`` halts and resumes it.
+
+    The log's speed goes out on ``speed``, its acceleration on ``acceleration``.
 
     Parameters
     ----------
@@ -46,8 +51,8 @@ class ReplayNode(Node):
         self._log = log
         self._rate = rate
         self._stop = stop
-        self._publisher = self.create_publisher(Float64, "steering", QUEUE_DEPTH)
-        self._speed_publisher = self.create_publisher(Float64, "speed", QUEUE_DEPTH) if log.speeds else None
+        names = [*(name for name in LONGITUDINAL if name in log.inputs), STEERING]
+        self._topics = {name: self.create_publisher(Float64, name, QUEUE_DEPTH) for name in names}
         self._moments = _moments(log)
         self._clock_publisher = self.create_publisher(Clock, "/clock", QUEUE_DEPTH) if publish_clock else None
         self._paused = threading.Event()
@@ -57,11 +62,11 @@ class ReplayNode(Node):
     @property
     def topic(self) -> str:
         """Fully qualified name of the topic."""
-        return str(self._publisher.topic_name)
+        return str(self._topics[STEERING].topic_name)
 
     def wait_for_subscriber(self) -> bool:
         """Wait until somebody listens; return False if the stop request came first."""
-        while self._publisher.get_subscription_count() == 0:
+        while self._topics[STEERING].get_subscription_count() == 0:
             if self._stop.wait(POLL):
                 return False
         # The subscriber may not have discovered this publisher yet.
@@ -88,7 +93,7 @@ class ReplayNode(Node):
     def _play_round(self, start: float, progress: Callable[[float], None]) -> bool:
         """Publish the log once; return False if the stop request came first."""
         message = Float64()
-        for at, steers, message.data in self._moments:
+        for at, name, message.data in self._moments:
             while True:
                 if self._paused.is_set():
                     start += self._wait_while_paused()
@@ -98,9 +103,7 @@ class ReplayNode(Node):
                     break
             if self._stop.requested:
                 return False
-            publisher = self._publisher if steers else self._speed_publisher
-            if publisher is not None:
-                publisher.publish(message)
+            self._topics[name].publish(message)
             self.lateness = time.monotonic() - start - at / self._rate
             self.worst_lateness = max(self.worst_lateness, self.lateness)
             if self._clock_publisher is not None:
@@ -112,8 +115,7 @@ class ReplayNode(Node):
 
     def close(self) -> None:
         """Wait until subscribers have received all messages."""
-        publishers = [self._publisher, self._speed_publisher]
-        wait_for_subscribers([publisher for publisher in publishers if publisher is not None])
+        wait_for_subscribers([*self._topics.values()])
 
     def _wait_while_paused(self) -> float:
         """Wait for the pause to end; return its duration [s]."""
@@ -131,14 +133,18 @@ class ReplayNode(Node):
         return response
 
 
-def _moments(log: SteeringLog) -> list[tuple[float, bool, float]]:
-    """Time [s], whether it steers, and value of each message to publish, in order.
+def _moments(log: SteeringLog) -> list[tuple[float, str, float]]:
+    """Time [s], topic and value of each message to publish, in order.
 
-    A speed goes out before the steering of the same time, so that both act from one step on.
+    Speed and acceleration go out before the steering of the same time, so that all act from one step on.
     """
-    speeds = zip(log.speed_times, log.speeds, strict=True)
+    signals = {name: log.inputs[name] for name in LONGITUDINAL if name in log.inputs}
+    signals[STEERING] = log.times, log.angles
     moments = [
-        *((at, False, speed) for at, speed in speeds if at <= log.duration),
-        *((at, True, angle) for at, angle in zip(log.times, log.angles, strict=True)),
+        (at, name, value)
+        for name, signal in signals.items()
+        for at, value in zip(*signal, strict=True)
+        if at <= log.duration
     ]
-    return sorted(moments, key=lambda moment: moment[:2])
+    # Sorting is stable: at one time the order is that of the signals.
+    return sorted(moments, key=lambda moment: moment[0])
