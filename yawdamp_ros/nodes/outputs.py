@@ -15,7 +15,8 @@ from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.nodes.graph import wait_for_subscribers
 from yawdamp_ros.nodes.scene import markers
 from yawdamp_ros.runs.encoder import Encoded, Encoder, message_class
-from yawdamp_ros.runs.recipe import EVENT_TYPE, EVENTS, event_message
+from yawdamp_ros.runs.outputs import EVENTS
+from yawdamp_ros.runs.recipe import EVENT_TYPE, event_message
 from yawdamp_ros.runs.run_writer import QUEUE_DEPTH
 from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.stepping import Event

@@ -13,6 +13,8 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping import Response, Sample
 
 FLOAT64 = "std_msgs/msg/Float64"
+EVENTS = "events"
+"""Topic of the vehicle's events."""
 
 
 class Of(Enum):

@@ -13,7 +13,7 @@ from rclpy.serialization import serialize_message
 from yawdamp_ros.runs.encoder import TWISTS, Encoded, message_class
 from yawdamp_ros.runs.frames import TF_TYPE, Frames
 from yawdamp_ros.runs.jumps import INT64, JUMP
-from yawdamp_ros.runs.outputs import FLOAT64
+from yawdamp_ros.runs.outputs import EVENTS, FLOAT64
 from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.runs.run_writer import Channel, RunWriter, SerialisedMessage
 from yawdamp_ros.runs.templates import ENCAPSULATION
@@ -26,8 +26,6 @@ from yawdamp_ros.version import VERSION
 
 FRAME_CHANNELS = {"tf": Channel("/tf", TF_TYPE), "tf_static": Channel("/tf_static", TF_TYPE, latched=True)}
 """Topics of frames, whose names are global and are not resolved."""
-EVENTS = "events"
-"""Topic of the vehicle's events."""
 EVENT_TYPE = "diagnostic_msgs/msg/DiagnosticStatus"
 COMMAND = "steering"
 """Topic of the steering commands as received; that of the road wheels is `applied_topic`."""

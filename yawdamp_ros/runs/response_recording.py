@@ -13,14 +13,12 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.logs import LogError, McapLog, MessageDecoder
 from yawdamp_ros.runs import outputs
 from yawdamp_ros.runs.jumps import JUMP, jump_of
-from yawdamp_ros.runs.outputs import FLOAT64
+from yawdamp_ros.runs.outputs import EVENTS, FLOAT64
 from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME
 from yawdamp_ros.runs.response_reader import LARGEST_VALUE
 from yawdamp_ros.stepping import Event, Response
 from yawdamp_ros.stepping.time_grid import SECOND
 
-EVENTS = "events"
-"""Topic of the vehicle's events."""
 ERROR = 2
 """Level of an event with which the motion ends."""
 OF_UNITS = ("imu", "odom")
