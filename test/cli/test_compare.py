@@ -45,7 +45,10 @@ def test_compare_in_json_holds_what_the_table_shows(
     tmp_path: Path, drive: Drive, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = written(tmp_path, drive)
-    assert run(["compare", path, "--vehicle", "truck_trailer", "--format", "json"]) == 0
+    page = tmp_path / "page.html"
+    arguments = ["--vehicle", "truck_trailer", "--format", "json", "--html", str(page)]
+    assert run(["compare", path, *arguments]) == 0
+    assert '"verdict": "R2 of simulated against measured: 0.' in page.read_text(encoding="utf-8")
     record = json.loads(capsys.readouterr().out)
     assert [channel["output"] for channel in record["channels"]] == [
         "truck/yaw_rate",
@@ -107,7 +110,9 @@ def test_identify_tells_values_intervals_and_the_vehicle(
         assert found[name]["low"] < found[name]["value"] < found[name]["high"]
     assert record["overrides"][0].startswith("units.0.yaw_inertia=")
     assert record["checked"][0]["r_squared"] > 0.95
-    assert "The part kept to check" in page.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
+    assert "The part kept to check" in text
+    assert '"verdict": "The drive determines stiffness, inertia, steering offset. R2 on the part' in text
     assert run(arguments) == 0
     printed = capsys.readouterr().out
     assert "│ stiffness" in printed

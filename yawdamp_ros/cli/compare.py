@@ -15,7 +15,9 @@ from yawdamp_ros.cli.drive_report import (
     comparison_rows,
     excitation_lines,
     label,
+    r_squared_range,
     told,
+    vehicle_line,
 )
 from yawdamp_ros.cli.errors import UsageError
 from yawdamp_ros.cli.log_options import add_log_options, chosen_drive
@@ -52,14 +54,22 @@ def main(arguments: Sequence[str]) -> int:
     title = f"{Path(options.log).name} against {against}"
     if options.html:
         # Imported here: the table appears before the library for pages has loaded.
-        from yawdamp_ros.pictures.drive_page import PageTable, drive_page  # noqa: PLC0415
+        from yawdamp_ros.pictures.drive_page import DriveReport, PageTable, drive_page  # noqa: PLC0415
         from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
 
         table = PageTable("Agreement", COMPARISON_COLUMNS, comparison_rows(found))
-        lines = [*excitation_lines(excited), *notes]
-        save_page(
-            drive_page(title, "; ".join(told(drive)), [table], lines, [("Curves", found)]), options.html
+        page = DriveReport(
+            title,
+            f"the run {options.run}" if options.run else vehicle_line(vehicle, _model(options)),
+            f"R2 of simulated against measured: {r_squared_range(found)}",
+            None,
+            vehicle,
+            [table],
+            [" ".join(excitation_lines(excited)), *notes],
+            told(drive),
+            [("Curves", found)],
         )
+        save_page(drive_page(page), options.html)
     if options.format == "json":
         record = {
             "drive": options.log,

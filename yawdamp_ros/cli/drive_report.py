@@ -6,6 +6,7 @@ from types import MappingProxyType
 
 from yawdamp_ros.drives import ChannelComparison, Drive, Excitation
 from yawdamp_ros.drives.identification import SENSOR_OFFSET
+from yawdamp_ros.vehicle import Vehicle
 
 COMPARISON_COLUMNS = ("channel", "bias", "gain", "lag, s", "RMS err", "R2", "R2 max")
 SHORT = MappingProxyType({"yaw_rate": "r", "lateral_acceleration": "a_y", "yaw": "yaw"})
@@ -52,6 +53,21 @@ def comparison_record(found: ChannelComparison) -> dict[str, object]:
         "value": [_plain(value) for value in found.coherence.tolist()],
     }
     return record
+
+
+def r_squared_range(found: Sequence[ChannelComparison]) -> str:
+    """Describe the least and the largest R2 of channels."""
+    known = [each.r_squared for each in found if math.isfinite(each.r_squared)]
+    if not known:
+        return "none"
+    least, most = f"{min(known):.2f}", f"{max(known):.2f}"
+    return least if least == most else f"{least} to {most}"
+
+
+def vehicle_line(vehicle: Vehicle, model: str) -> str:
+    """Describe a vehicle and its model."""
+    mass = sum(unit.mass for unit in vehicle.units) / 1000.0
+    return f"{vehicle.name}, {model} model, {len(vehicle.units)} units, {mass:.1f} t"
 
 
 def excitation_lines(excited: Excitation) -> list[str]:

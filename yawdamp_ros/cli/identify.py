@@ -1,11 +1,20 @@
 """`identify`: parameters of a vehicle from a drive."""
 
 import json
+import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from yawdamp_ros.cli.drive_report import COMPARISON_COLUMNS, comparison_record, comparison_rows, label, told
+from yawdamp_ros.cli.drive_report import (
+    COMPARISON_COLUMNS,
+    comparison_record,
+    comparison_rows,
+    label,
+    r_squared_range,
+    told,
+    vehicle_line,
+)
 from yawdamp_ros.cli.log_options import add_log_options, chosen_drive
 from yawdamp_ros.cli.options import (
     DEFAULT_MODEL,
@@ -17,10 +26,10 @@ from yawdamp_ros.cli.options import (
     overrides,
 )
 from yawdamp_ros.cli.table import print_table
-from yawdamp_ros.drives import DEFAULT, Drive, Identification, identify
+from yawdamp_ros.drives import DEFAULT, Drive, Estimate, Identification, identify
 from yawdamp_ros.drives.identification import predictor_of
 from yawdamp_ros.simulation import MODELS
-from yawdamp_ros.vehicle import vehicle_source
+from yawdamp_ros.vehicle import Vehicle, parse_vehicle, vehicle_source
 
 ESTIMATE_COLUMNS = ("parameter", "value", "95 % interval", "unit")
 
@@ -32,35 +41,44 @@ def main(arguments: Sequence[str]) -> int:
     vehicle = chosen_vehicle(options)
     if options.speed is not None:
         drive = drive.without("speed", "acceleration")
+    source = vehicle_source(chosen_name(options), overrides(options))
+    asked = list(dict.fromkeys(options.fit or DEFAULT))
     found = identify(
         drive,
-        vehicle_source(chosen_name(options), overrides(options)),
-        options.fit or DEFAULT,
+        source,
+        asked,
         predictor=predictor_of(options.model or DEFAULT_MODEL),
         fitted_share=options.share,
     )
-    title = f"{Path(options.log).name}: {vehicle.name}, {options.model or DEFAULT_MODEL} model"
+    model = options.model or DEFAULT_MODEL
+    title = f"{Path(options.log).name}: {vehicle.name}, {model} model"
     if options.html:
-        _save_page(title, drive, found, options.html)
+        from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415 - as for `_page`
+
+        identified = parse_vehicle(source.text, vehicle.name, [*source.overrides, *found.overrides])
+        save_page(_page(drive, identified, model, found, asked), options.html)
     if options.format == "json":
         print(json.dumps(_record(options.log, drive, found), indent=2))
     else:
         _print_text(title, drive, found)
     for warning in found.warnings:
         print(f"warning: {warning}", file=sys.stderr)
-    return 0 if all(found[each].seen for each in dict.fromkeys(options.fit or DEFAULT)) else 1
+    return 0 if all(found[each].seen for each in asked) else 1
 
 
 def _estimate_rows(found: Identification) -> list[tuple[str, ...]]:
-    return [
-        (
-            label(each.parameter.name),
-            f"{each.value:.4g}",
-            f"{each.low:.4g} to {each.high:.4g}",
-            each.parameter.unit or "-",
-        )
-        for each in found.estimates
-    ]
+    rows = []
+    for each in found.estimates:
+        value, low, high = _figures(each)
+        rows.append((label(each.parameter.name), value, f"{low} to {high}", each.parameter.unit or "-"))
+    return rows
+
+
+def _figures(estimate: Estimate) -> tuple[str, ...]:
+    """Value and ends of the interval, to two figures of the interval's width."""
+    width = estimate.high - estimate.low
+    decimals = min(max(1 - math.floor(math.log10(width)), 0), 9) if width > 0.0 else 9
+    return tuple(f"{number:.{decimals}f}" for number in (estimate.value, estimate.low, estimate.high))
 
 
 def _print_text(title: str, drive: Drive, found: Identification) -> None:
@@ -111,19 +129,40 @@ def _record(log: str, drive: Drive, found: Identification) -> dict[str, object]:
     }
 
 
-def _save_page(title: str, drive: Drive, found: Identification, path: str) -> None:
+def _page(drive: Drive, vehicle: Vehicle, model: str, found: Identification, asked: Sequence[str]) -> str:
     # Imported here: the table appears before the library for pages has loaded.
-    from yawdamp_ros.pictures.drive_page import PageTable, drive_page  # noqa: PLC0415
-    from yawdamp_ros.pictures.page import save_page  # noqa: PLC0415
+    from yawdamp_ros.pictures.drive_page import DriveReport, PageTable, drive_page  # noqa: PLC0415
 
-    tables = [
-        PageTable("Parameters", ESTIMATE_COLUMNS, _estimate_rows(found)),
-        PageTable("Before, on the part kept to check", COMPARISON_COLUMNS, comparison_rows(found.before)),
-        PageTable("Fitted, on the part kept to check", COMPARISON_COLUMNS, comparison_rows(found.checked)),
-    ]
-    parts = [("The part kept to check", found.checked), ("The part that was fitted", found.fitted)]
-    notes = [*(f"Warning: {each}." for each in found.warnings), *found.notes]
-    save_page(drive_page(title, "; ".join(told(drive)), tables, notes, parts), path)
+    unseen = [name for name in asked if not found[name].seen]
+    named = ", ".join(name.replace("_", " ") for name in unseen or asked)
+    kept = "the part kept to check"
+    report = DriveReport(
+        title=f"{Path(drive.source).name}: parameters of {vehicle.name}",
+        subtitle=vehicle_line(vehicle, model),
+        verdict=f"The drive {'does not determine' if unseen else 'determines'} {named}. R2 on {kept}: "
+        f"{r_squared_range(found.checked)}, before the fit {r_squared_range(found.before)}",
+        passed=not unseen,
+        vehicle=vehicle,
+        tables=[
+            PageTable(
+                "Parameters",
+                ESTIMATE_COLUMNS[:-1],
+                [
+                    (f"{name}, {unit}".removesuffix(", -"), *rest)
+                    for name, *rest, unit in _estimate_rows(found)
+                ],
+            ),
+            PageTable(f"Before, on {kept}", COMPARISON_COLUMNS, comparison_rows(found.before)),
+            PageTable(f"Fitted, on {kept}", COMPARISON_COLUMNS, comparison_rows(found.checked)),
+        ],
+        notes=[*(f"Warning: {each}." for each in found.warnings), *found.notes],
+        taken=told(drive),
+        comparisons=[
+            (f"{kept[0].upper()}{kept[1:]}", found.checked),
+            ("The part that was fitted", found.fitted),
+        ],
+    )
+    return drive_page(report)
 
 
 def _parser() -> Parser:

@@ -8,7 +8,9 @@ import numpy as np
 
 from yawdamp_ros.drives import ChannelComparison
 from yawdamp_ros.dynamics.kinematics import FloatArray
+from yawdamp_ros.pictures.assessment_data import side_view, vehicle_tables
 from yawdamp_ros.pictures.page import page_text
+from yawdamp_ros.vehicle import Vehicle
 
 MOST_POINTS = 4000
 """Limit on the points of a curve; a longer one is thinned out evenly."""
@@ -48,40 +50,65 @@ class PageTable(NamedTuple):
     rows: Sequence[Sequence[str]]
 
 
-def drive_page(
-    title: str,
-    subtitle: str,
-    tables: Sequence[PageTable],
-    notes: Sequence[str],
-    comparisons: Sequence[tuple[str, Sequence[ChannelComparison]]],
-) -> str:
+class DriveReport(NamedTuple):
+    """Contents of the page of a comparison or an identification.
+
+    Attributes
+    ----------
+    title, subtitle : str
+    verdict : str
+    passed : bool or None
+        Whether the verdict is good; None if there is nothing to pass.
+    vehicle : Vehicle
+        Vehicle that is drawn, with its data.
+    tables : sequence of PageTable
+    notes : sequence of str
+    taken : sequence of str
+        Sources of the drive's channels.
+    comparisons : sequence of (str, sequence of ChannelComparison)
+        Parts of the drive, each with its name; the curves of a part are overlaid.
+    """
+
+    title: str
+    subtitle: str
+    verdict: str
+    passed: bool | None
+    vehicle: Vehicle
+    tables: Sequence[PageTable]
+    notes: Sequence[str]
+    taken: Sequence[str]
+    comparisons: Sequence[tuple[str, Sequence[ChannelComparison]]]
+
+
+def drive_page(report: DriveReport) -> str:
     """HTML text of a comparison or an identification.
 
     Parameters
     ----------
-    title, subtitle : str
-    tables : sequence of PageTable
-    notes : sequence of str
-    comparisons : sequence of (str, sequence of ChannelComparison)
-        Parts of the drive, each with its name; the curves of a part are overlaid.
+    report : DriveReport
 
     Returns
     -------
     str
     """
+    vehicle = report.vehicle
     data = {
-        "title": title,
-        "subtitle": subtitle,
-        "tables": [_shown(table) for table in tables],
-        "notes": list(notes),
+        "title": report.title,
+        "subtitle": report.subtitle,
+        "verdict": report.verdict,
+        "passed": report.passed,
+        "tables": [_shown(table) for table in report.tables],
+        "notes": list(report.notes),
+        "vehicle": {"name": vehicle.name, **side_view(vehicle), "tables": vehicle_tables(vehicle)},
         "sections": [
-            {"title": name, "text": "", "charts": [chart for each in found for chart in _charts(each)]}
-            for name, found in comparisons
+            {"title": name, "charts": [chart for each in found for chart in _charts(each)]}
+            for name, found in report.comparisons
             if found
         ],
+        "taken": list(report.taken),
         "definitions": list(DEFINITIONS.items()),
     }
-    return page_text("drive.html", title, data)
+    return page_text("drive.html", report.title, data)
 
 
 def _shown(table: PageTable) -> dict[str, object]:
@@ -127,7 +154,7 @@ def _charts(found: ChannelComparison) -> list[dict[str, object]]:
             "caption": f"RMS {found.rms_error:.3g} {unit}, mean {found.bias:.3g} {unit}",
         },
     ]
-    shown = found.frequencies <= HIGHEST_FREQUENCY
+    shown = (found.frequencies <= HIGHEST_FREQUENCY) & np.isfinite(found.coherence)
     if shown.any():
         charts.append(
             {

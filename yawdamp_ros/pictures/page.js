@@ -76,3 +76,47 @@ function chart(parent, title, xLabel, yLabel, series, caption) {
   render();
   return figure;
 }
+
+/* A table of text, the first column left and the others right; it scrolls where the page is narrow. */
+function plainTable(parent, { title, columns, rows, note }) {
+  make("h3", {}, parent, title);
+  const table = make("table", { class: "plain" }, make("div", { class: "scroll" }, parent));
+  const head = make("tr", {}, make("thead", {}, table)), body = make("tbody", {}, table);
+  columns.forEach((column, index) => make("th", index ? { class: "number" } : {}, head, column));
+  for (const row of rows) {
+    const line = make("tr", {}, body);
+    row.forEach((cell, index) => make("td", index ? { class: "number" } : {}, line, cell));
+  }
+  if (note) make("p", { class: "soft" }, parent, note);
+}
+
+/* A vehicle from the side, to scale. */
+function sideView(parent, vehicle) {
+  const figure = make("figure", {}, parent);
+  make("h3", {}, figure, vehicle.name);
+  const left = Math.min(...vehicle.units.map((unit) => unit.rear)) - 0.5;
+  const right = Math.max(...vehicle.units.map((unit) => unit.front)) + 0.5;
+  const top = Math.max(...vehicle.units.map((unit) => unit.height)) + 0.9;
+  const svg = draw("svg", { viewBox: `${-right} ${-top} ${right - left} ${top + 1.3}`, role: "img",
+    "aria-label": `${vehicle.name} from the side` }, figure);
+  const text = { "text-anchor": "middle", style: `font-size:${Math.max((right - left) / 55, 0.28)}px` };
+  draw("line", { x1: -right, x2: -left, y1: 0, y2: 0, stroke: "var(--line)", "stroke-width": 0.06 }, svg);
+  vehicle.units.forEach((unit, index) => {
+    draw("rect", { x: -unit.front, y: -unit.height, width: unit.front - unit.rear, height: unit.height - unit.floor,
+      fill: colour(index), "fill-opacity": 0.2, stroke: colour(index), "stroke-width": 0.06 }, svg);
+    draw("text", { ...text, x: -(unit.front + unit.rear) / 2, y: -unit.height - 0.25 }, svg,
+      `${unit.name}, ${unit.mass}`);
+    for (const [x, load] of unit.axles) {
+      draw("circle", { cx: -x, cy: -0.5, r: 0.48, fill: "var(--ink)" }, svg);
+      draw("text", { ...text, x: -x, y: 0.7 }, svg, load);
+    }
+    draw("circle", { cx: -unit.cg[0], cy: -unit.cg[1], r: 0.17, fill: unit.assumed ? "var(--sheet)" : "var(--ink)",
+      stroke: "var(--ink)", "stroke-width": 0.06 }, svg);
+    if (unit.hitch) {
+      const [x, y] = unit.hitch;
+      draw("path", { d: `M${-x} ${-y} l-0.2 -0.35 h0.4 z`, fill: "var(--ink)" }, svg);
+    }
+  });
+  make("figcaption", {}, figure, "Axle loads in t. Circles: centres of gravity, hollow where the height is assumed; "
+    + "triangles: hitches.");
+}
