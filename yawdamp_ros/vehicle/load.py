@@ -4,6 +4,7 @@ import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -225,7 +226,7 @@ def parse_vehicle(text: str, source: str, overrides: Sequence[str] = ()) -> Vehi
     >>> parse_vehicle(vehicle_text("interlink"), "interlink").speed
     22.22222222222222
     """
-    data = _parse_yaml(text, source)
+    data = _file_data(text, source)
     before = deepcopy(data) if overrides else None
     data = canonical(_overridden(data, overrides, source), source)
     if overrides or not _is_builtin(text, source):
@@ -282,7 +283,7 @@ def load_stack(
     >>> stack.units[1].mass.tolist()
     [10000.0, 20000.0]
     """
-    data = _parse_yaml(text, source)
+    data = _file_data(text, source)
     before = deepcopy(data)
     _overridden(data, overrides, source)
     # The schema limits each key to a range: a stack lies within it if its extremes do.
@@ -299,7 +300,7 @@ def load_stack(
 
 def overridden_data(text: str, source: str, overrides: Sequence[str]) -> Any:  # noqa: ANN401
     """Parse the text of a vehicle file and change the keys that overrides name; nothing else is checked."""
-    return _overridden(_parse_yaml(text, source), overrides, source)
+    return _overridden(_file_data(text, source), overrides, source)
 
 
 def _overridden(data: Any, overrides: Sequence[str], source: str) -> Any:  # noqa: ANN401
@@ -324,6 +325,16 @@ def _check_schema(data: Any, source: str) -> None:  # noqa: ANN401
     from yawdamp_ros.vehicle.schema import check_schema  # noqa: PLC0415
 
     check_schema(data, source)
+
+
+def _file_data(text: str, source: str) -> Any:  # noqa: ANN401
+    return deepcopy(_parsed_file(text, source))
+
+
+@lru_cache(maxsize=4)
+def _parsed_file(text: str, source: str) -> Any:  # noqa: ANN401
+    # A locus or a fit takes one file hundreds of times, and to parse it takes far longer than the rest.
+    return _parse_yaml(text, source)
 
 
 def _parse_yaml(text: str, source: str) -> Any:  # noqa: ANN401 - any YAML until it is checked
