@@ -3,6 +3,7 @@
 import ast
 import doctest
 import inspect
+import struct
 import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
@@ -13,9 +14,20 @@ from pathlib import Path
 import pytest
 
 import yawdamp_ros
+from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
 
 DOCS = Path(__file__).parents[1] / "docs"
 ROOMS = [name for name in yawdamp_ros.__all__ if inspect.ismodule(getattr(yawdamp_ros, name))]
+TYRE = """[MODEL]
+PROPERTY_FILE_FORMAT = 'PAC2002'
+[VERTICAL]
+FNOMIN = 35000
+[LATERAL_COEFFICIENTS]
+PCY1 = 1.2
+PDY1 = 0.8
+PKY1 = -12
+PKY2 = 1.7
+"""
 NOT_IMPERATIVE = ("Of ", "What ", "Where ", "How ", "Whether ")
 
 
@@ -52,9 +64,25 @@ def test_parameters_returns_and_raises_are_described(name: str) -> None:
         assert described["Raises"] or not raises(found)
 
 
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """Files that examples read: a recording, a tyre, and those of the manual."""
+    directory = tmp_path_factory.mktemp("files")
+    run = make_run_directory(directory / "steering_run", numbered=False)
+    writer = RunWriter(run, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
+    writer.write([("steering", 0, bytes([0, 1, 0, 0]) + struct.pack("<d", 0.02))])
+    writer.close()
+    tyre = directory / "truck.tir"
+    tyre.write_text(TYRE, encoding="utf-8")
+    return [run, tyre, DOCS]
+
+
 @pytest.mark.parametrize("name", EXPORTED)
-def test_the_example_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "docs").symlink_to(DOCS)
+def test_the_example_runs(
+    name: str, files: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for each in files:
+        (tmp_path / each.name).symlink_to(each)
     monkeypatch.chdir(tmp_path)
     finder = doctest.DocTestFinder(recurse=False)
     (example,) = finder.find(EXPORTED[name], name)

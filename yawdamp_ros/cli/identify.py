@@ -67,7 +67,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _estimate_rows(found: Identification) -> list[tuple[str, ...]]:
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for each in found.estimates:
         value, low, high = _figures(each)
         rows.append((label(each.parameter.name), value, f"{low} to {high}", each.parameter.unit or "-"))

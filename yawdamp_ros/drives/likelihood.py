@@ -100,7 +100,7 @@ def _maximum(problem: "_Problem") -> Fit:
         settled = [each.order for each in found] == [each.order for each in noises]
         noises = found
         errors = np.sqrt(np.diag(_inverse(solution.jac)))
-        if settled and (np.abs(moved) < 0.02 * errors).all():
+        if settled and (np.abs(moved) < 0.05 * errors).all():
             break
     covariance = problem.covariance(at, noises)
     errors = np.sqrt(np.diag(covariance))

@@ -55,14 +55,8 @@ class RecordedMessage(NamedTuple):
     Examples
     --------
     >>> from pathlib import Path
-    >>> from struct import pack
-    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
-    >>> directory = make_run_directory(Path("run"), numbered=False)
-    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
-    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
-    >>> writer.close()
     >>> from yawdamp_ros.logs import McapLog
-    >>> message = next(McapLog(directory).messages())
+    >>> message = next(McapLog(Path("steering_run")).messages())
     >>> message.type_name, message.log_time
     ('std_msgs/msg/Float64', 0)
     """
@@ -101,14 +95,8 @@ class McapLog:
     Examples
     --------
     >>> from pathlib import Path
-    >>> from struct import pack
-    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
-    >>> directory = make_run_directory(Path("run"), numbered=False)
-    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
-    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
-    >>> writer.close()
     >>> from yawdamp_ros.logs import McapLog
-    >>> [message.topic for message in McapLog(directory).messages()]
+    >>> [message.topic for message in McapLog(Path("steering_run")).messages()]
     ['/steering']
     """
 
@@ -186,15 +174,9 @@ class MessageDecoder:
     Examples
     --------
     >>> from pathlib import Path
-    >>> from struct import pack
-    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
-    >>> directory = make_run_directory(Path("run"), numbered=False)
-    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
-    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
-    >>> writer.close()
     >>> from yawdamp_ros.logs import McapLog, MessageDecoder
     >>> decode = MessageDecoder()
-    >>> [decode(message).data for message in McapLog(directory).messages()]
+    >>> [decode(message).data for message in McapLog(Path("steering_run")).messages()]
     [0.02]
     """
 
@@ -307,14 +289,8 @@ def is_recording(path: Path) -> bool:
     Examples
     --------
     >>> from pathlib import Path
-    >>> from struct import pack
-    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
-    >>> directory = make_run_directory(Path("run"), numbered=False)
-    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
-    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
-    >>> writer.close()
     >>> from yawdamp_ros.logs import is_recording
-    >>> is_recording(directory), is_recording(directory / "metadata.yaml")
+    >>> is_recording(Path("steering_run")), is_recording(Path("steering_run") / "metadata.yaml")
     (True, False)
     """
     if path.is_dir():

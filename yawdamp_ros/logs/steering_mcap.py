@@ -46,14 +46,8 @@ def read_steering_mcap(
     Examples
     --------
     >>> from pathlib import Path
-    >>> from struct import pack
-    >>> from yawdamp_ros.runs import Channel, RunWriter, make_run_directory
-    >>> directory = make_run_directory(Path("run"), numbered=False)
-    >>> writer = RunWriter(directory, {"steering": Channel("/steering", "std_msgs/msg/Float64")}, {}, {})
-    >>> writer.write([("steering", 0, bytes([0, 1, 0, 0]) + pack("<d", 0.02))])
-    >>> writer.close()
     >>> from yawdamp_ros.logs import read_steering_mcap
-    >>> list(read_steering_mcap(directory).angles)
+    >>> list(read_steering_mcap(Path("steering_run")).angles)
     [0.02]
     """
     log = McapLog(path)

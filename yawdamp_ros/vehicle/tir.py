@@ -59,18 +59,9 @@ class MagicFormula:
 
     Examples
     --------
-    >>> from yawdamp_ros.vehicle import parse_tir
-    >>> text = '''[MODEL]
-    ... PROPERTY_FILE_FORMAT = 'PAC2002'
-    ... [VERTICAL]
-    ... FNOMIN = 35000
-    ... [LATERAL_COEFFICIENTS]
-    ... PCY1 = 1.2
-    ... PDY1 = 0.8
-    ... PKY1 = -12
-    ... PKY2 = 1.7
-    ... '''
-    >>> tyre = parse_tir(text, "truck.tir")
+    >>> from pathlib import Path
+    >>> from yawdamp_ros.vehicle import read_tir
+    >>> tyre = read_tir(Path("truck.tir"))
     >>> tyre.coefficients[:3]
     (35000.0, 1.2, 0.8)
     """
@@ -101,17 +92,6 @@ def read_tir(path: Path) -> MagicFormula:
     --------
     >>> from pathlib import Path
     >>> from yawdamp_ros.vehicle import read_tir
-    >>> text = '''[MODEL]
-    ... PROPERTY_FILE_FORMAT = 'PAC2002'
-    ... [VERTICAL]
-    ... FNOMIN = 35000
-    ... [LATERAL_COEFFICIENTS]
-    ... PCY1 = 1.2
-    ... PDY1 = 0.8
-    ... PKY1 = -12
-    ... PKY2 = 1.7
-    ... '''
-    >>> _ = Path("truck.tir").write_text(text, encoding="utf-8")
     >>> read_tir(Path("truck.tir")).name
     'truck.tir'
     """
