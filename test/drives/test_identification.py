@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from made_drives import TRUTH, made_drive, source_of
 from yawdamp_ros.drives import Channel, Drive, DriveError, identify, inputs_of, predict
@@ -149,3 +150,18 @@ def test_coloured_noise_is_whitened() -> None:
     np.testing.assert_allclose(np.cov(white.T), np.eye(2), atol=0.03)
     for lag in (1, 2, 5):
         assert np.abs(white[lag:].T @ white[:-lag] / len(white)).max() < 0.03
+
+
+def test_the_freedom_of_a_slow_spectrum_is_what_its_scatter_shows() -> None:
+    rng = np.random.default_rng(11)
+    levels, freedoms, orders = [], [], []
+    for _ in range(200):
+        slow = lfilter([1.0], [1.0, -0.95], rng.normal(size=3300))[300:]
+        model = fitted((slow + 3.2 * rng.normal(size=3000))[:, np.newaxis])
+        levels.append(2.0 * np.log(model.factor[0, 0] / (1.0 - model.coefficients.sum())))
+        freedoms.append(model.freedom)
+        orders.append(model.order)
+    scattered = 2.0 / np.var(levels)
+    assert np.mean(freedoms) == pytest.approx(scattered, rel=0.3)
+    # The limit for noise of a short memory says far more.
+    assert 3000 / (2.0 * np.mean(orders)) > 1.5 * scattered
