@@ -3,6 +3,8 @@ import math
 import random
 import signal
 import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,6 +27,7 @@ from runs import (
     stepped_again,
 )
 from yawdamp_ros import load_vehicle, simulate
+from yawdamp_ros.cli import run
 from yawdamp_ros.manoeuvres import Sine
 from yawdamp_ros.nodes.graph import join, ros_graph, spin
 from yawdamp_ros.nodes.server import Server
@@ -46,8 +49,8 @@ def test_a_manoeuvre_arrives_over_the_graph_as_the_model_has_it(graph: Graph) ->
     until(lambda: all(len(graph.received[topic]) > 200 for topic in OUTPUTS), "two seconds of every output")
     status, output, errors = stop(process)
     assert status == 0, errors
-    run = run_directory(graph.directory)
-    messages = recorded(run)
+    path = run_directory(graph.directory)
+    messages = recorded(path)
     # Stamps follow ROS time, by jumps where the machine held the node up: a sample is known by its stamp.
     published = stamps([message for _, message in messages["/truck/imu"]])
     index_of = {stamp: index for index, stamp in enumerate(published)}
@@ -88,7 +91,7 @@ def test_a_manoeuvre_arrives_over_the_graph_as_the_model_has_it(graph: Graph) ->
     np.testing.assert_array_equal(angles[:, 0], expected.steering_angle[at])
     np.testing.assert_array_equal(angles[:, 1:], expected.articulation[at])
     assert "trailer_2" in output
-    assert f"run: {run.relative_to(graph.directory)}" in output
+    assert f"run: {path.relative_to(graph.directory)}" in output
 
 
 def test_steering_from_the_graph_is_applied_recorded_and_stepped_as_recorded(graph: Graph) -> None:
@@ -185,19 +188,30 @@ def test_silence_holds_or_zeroes_as_asked(graph: Graph, reaction: str, last: flo
         assert 200_000_000 <= off - on <= 211_000_000
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_at_any_moment_ends_in_good_order(graph: Graph, number: int) -> None:
-    moments = random.Random(number)  # noqa: S311 - any moments will do, the same ones each time
-    for delay in [0.0, *(moments.uniform(0.0, 1.5) for _ in range(9 if number == signal.SIGINT else 4))]:
-        directory = graph.directory / f"{delay:.6f}"
+def test_a_signal_at_any_moment_ends_in_good_order(graph: Graph) -> None:
+    moments = random.Random(2)  # noqa: S311 - any moments will do, the same ones each time
+    cases = [
+        (number, delay)
+        for number, count in ((signal.SIGINT, 9), (signal.SIGTERM, 4), (signal.SIGHUP, 4))
+        for delay in (0.0, *(moments.uniform(0.0, 1.5) for _ in range(count)))
+    ]
+
+    def end(case: tuple[int, float]) -> tuple[Path, int, str]:
+        number, delay = case
+        directory = graph.directory / f"{number}_{delay:.6f}"
         process = graph.command("sim", "--output", str(directory))
         # Before the project's first line, a signal meets the bare interpreter; SIGHUP's handler comes last.
-        until(lambda process=process: has_handler(process, signal.SIGHUP), "the handlers")
+        until(lambda: has_handler(process, signal.SIGHUP), "the handlers")
         time.sleep(delay)
         process.send_signal(number)
         time.sleep(0.01)
         status, _, errors = stop(process, number)
-        assert status == 0, (delay, errors)
+        return directory, status, errors
+
+    with ThreadPoolExecutor(3) as pool:
+        ended = list(pool.map(end, cases))
+    for case, (directory, status, errors) in zip(cases, ended, strict=True):
+        assert status == 0, (case, errors)
         assert "Traceback" not in errors
         assert "Exception" not in errors
         if directory.exists():
@@ -272,9 +286,18 @@ def test_what_is_not_wanted_is_neither_published_nor_recorded(graph: Graph) -> N
         (["--ros-args", "-p", "vehicle_overrides:=['units.1.mass=0']"], "units.1.mass: 0: expected a mass"),
     ],
 )
-def test_wrong_use_is_one_line_and_status_2(graph: Graph, arguments: list[str], message: str) -> None:
-    status, output, errors = outcome(graph.command("sim", *arguments))
-    assert (status, output) == (2, "")
+def test_wrong_use_is_one_line_and_status_2(
+    arguments: list[str],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ROS_DOMAIN_ID", "98")
+    assert run(["sim", *arguments]) == 2
+    output, errors = capfd.readouterr()
+    assert output == ""
     assert message in errors
     assert errors.count("\n") == 1
 
