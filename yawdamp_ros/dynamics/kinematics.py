@@ -1,6 +1,7 @@
 """Kinematics of the units of a combination."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -57,16 +58,18 @@ def coupled_positions(
         ``x + i y`` of every unit, m.
     """
     positions = np.empty_like(heading)
-    positions[..., 0] = lead
+    headings, place = _by_unit(heading), complex(lead) if heading.ndim == 1 else lead
+    positions[..., 0] = place
     for index, (rear_hitch, front_hitch) in enumerate(hitches):
-        hitch = positions[..., index] + rear_hitch * heading[..., index]
-        positions[..., index + 1] = hitch - front_hitch * heading[..., index + 1]
+        hitch = place + rear_hitch * headings[index]
+        place = hitch - front_hitch * headings[index + 1]
+        positions[..., index + 1] = place
     return positions
 
 
 def coupled_velocities(
     hitches: Sequence[tuple[float, float]],
-    lead: tuple[FloatArray, FloatArray],
+    lead: tuple[FloatArray | float, FloatArray],
     yaw_rate: FloatArray,
     heading: ComplexArray,
 ) -> ComplexArray:
@@ -78,8 +81,8 @@ def coupled_velocities(
     ----------
     hitches : sequence of (float, float)
         Hitches, as in `Vehicle.hitches`.
-    lead : (ndarray, ndarray)
-        Longitudinal and lateral velocity of the lead unit, m/s, shape (...).
+    lead : (float or ndarray, ndarray)
+        Longitudinal and lateral velocity of the lead unit, m/s, shape (...); the first may be common to all.
     yaw_rate : ndarray, shape (..., n)
         rad/s.
     heading : ndarray of complex, shape (..., n)
@@ -91,18 +94,24 @@ def coupled_velocities(
         Longitudinal and lateral velocity as real and imaginary part [m/s].
     """
     velocities = np.empty_like(heading)
-    forward, sideways = lead
-    velocities.real[..., 0], velocities.imag[..., 0] = forward, sideways
+    along, across = velocities.real, velocities.imag
+    forward, sideways = lead[0], float(lead[1]) if heading.ndim == 1 else lead[1]
+    along[..., 0], across[..., 0] = forward, sideways
     # No products of two complex numbers: NumPy rounds them differently at the end of an array.
-    east, north = heading.real, heading.imag
+    east, north, rates = _by_unit(heading.real), _by_unit(heading.imag), _by_unit(yaw_rate)
     for index, (rear_hitch, front_hitch) in enumerate(hitches):
         ahead, behind = index, index + 1
-        cosine = east[..., ahead] * east[..., behind] + north[..., ahead] * north[..., behind]
-        sine = north[..., ahead] * east[..., behind] - east[..., ahead] * north[..., behind]
-        at_hitch = sideways + rear_hitch * yaw_rate[..., ahead]
+        cosine = east[ahead] * east[behind] + north[ahead] * north[behind]
+        sine = north[ahead] * east[behind] - east[ahead] * north[behind]
+        at_hitch = sideways + rear_hitch * rates[ahead]
         forward, sideways = (
             forward * cosine - at_hitch * sine,
-            forward * sine + at_hitch * cosine - front_hitch * yaw_rate[..., behind],
+            forward * sine + at_hitch * cosine - front_hitch * rates[behind],
         )
-        velocities.real[..., behind], velocities.imag[..., behind] = forward, sideways
+        along[..., behind], across[..., behind] = forward, sideways
     return velocities
+
+
+def _by_unit(values: Any) -> Any:  # noqa: ANN401 - numbers or arrays, of which the arithmetic is the same
+    """Values of each unit; of one instant as Python's numbers, which take a fraction of the time."""
+    return values.tolist() if values.ndim == 1 else np.moveaxis(values, -1, 0)

@@ -138,17 +138,19 @@ class NonlinearMotion:
     def run(self, angles: Sequence[float] | FloatArray, steps_per_sample: int | None = None) -> Sample:
         """Take a step for every steer angle, and sample; see `Motion`."""
         given = np.asarray(angles, dtype=np.float64)
-        before = np.append(self.steering_angle, given[:-1])
-        for index in np.flatnonzero(given != before).tolist():
-            self._tell(AppliedInput(self._step + 1 + index, "steering", float(given[index])))
-        rows = np.tile(self._inputs, (len(given), 1))
-        rows[:, STEERING] = before
+        rows = np.empty((len(given), len(self._inputs)))
+        rows[:] = self._inputs
+        rows[1:, STEERING] = given[:-1]
+        if (given != self.steering_angle).any():
+            for index in np.flatnonzero(given != rows[:, STEERING]).tolist():
+                self._tell(AppliedInput(self._step + 1 + index, "steering", float(given[index])))
         every = len(given) if steps_per_sample is None else steps_per_sample
         self._inputs[STEERING] = given[-1]
         states, events = self._take(rows, every)
         at = given[every - 1 :: every]
         steps = np.arange(self._step - len(given) + every, self._step + 1, every)
-        after = np.tile(self._inputs, (len(at), 1))
+        after = np.empty((len(at), len(self._inputs)))
+        after[:] = self._inputs
         after[:, STEERING] = at
         sample = self._sample_of(steps, at, states, after, events)
         return sample if steps_per_sample is not None else _single(sample)

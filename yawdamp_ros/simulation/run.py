@@ -98,6 +98,7 @@ class Run:
         self.events: list[Event] = []
         self.unwritten: tuple[Event, ...] = ()
         self._source = source
+        self._unit_names = motion.vehicle.unit_names
         self._sinks = tuple(sinks)
 
     @property
@@ -157,7 +158,7 @@ class Run:
             self.stopped = Stop(final.step, final.name, final.where, reason)
         found = None
         if self.limits is not None:
-            found = limit_violation(sample, self.motion.vehicle.unit_names, self.limits)
+            found = limit_violation(sample, self._unit_names, self.limits)
         if found is not None:
             instant, violation = found
             # Values after a final event are NaN; the event is the reason.

@@ -70,6 +70,7 @@ class Stepper:
         self.step = 0
         self._model_name = model.model
         self._units = len(model.vehicle.units)
+        self._hitches = model.vehicle.hitches
         self._inputs = [
             AppliedInput(0, "speed", model.speed),
             AppliedInput(0, "steering", 0.0),
@@ -286,10 +287,9 @@ class Stepper:
         for joint in range(self._units - 1):
             turned[..., joint + 1] = turned[..., joint] - outputs.articulation[..., joint]
         heading = _heading(wrapped[..., np.newaxis] + turned)
-        positions = coupled_positions(self.vehicle.hitches, at.position, heading)
-        sideways = outputs.lateral_velocity[..., 0]
-        lead = np.full_like(sideways, self.speed), sideways
-        velocity = coupled_velocities(self.vehicle.hitches, lead, outputs.yaw_rate, heading)
+        positions = coupled_positions(self._hitches, at.position, heading)
+        lead = self.speed, outputs.lateral_velocity[..., 0]
+        velocity = coupled_velocities(self._hitches, lead, outputs.yaw_rate, heading)
         inputs, self._inputs = tuple(self._inputs), []
         return Sample(
             step=step,
