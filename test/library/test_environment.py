@@ -11,8 +11,9 @@ from yawdamp_ros.stepping import Sample
 
 if find_spec("gymnasium"):
     from gymnasium.utils.env_checker import check_env
+    from gymnasium.vector import SyncVectorEnv
 
-    from yawdamp_ros.library.environment import RigEnv, vector_env
+    from yawdamp_ros.library.environment import RigEnv
 
 pytestmark = pytest.mark.skipif(find_spec("gymnasium") is None, reason="needs gymnasium, an extra")
 
@@ -70,7 +71,9 @@ def test_a_rollover_terminates() -> None:
 
 
 def test_several_rigs_are_one_vector_and_an_unknown_name_is_told() -> None:
-    envs = vector_env(2, lambda: RigEnv(DRIVEN, reward, ("steering", "acceleration"), ("truck/yaw_rate",)))
+    envs = SyncVectorEnv(
+        [lambda: RigEnv(DRIVEN, reward, ("steering", "acceleration"), ("truck/yaw_rate",))] * 2
+    )
     envs.reset(seed=1)
     for _ in range(20):
         seen, *_ = envs.step(np.array([[0.02, 0.0], [-0.02, -2.0]]))

@@ -16,7 +16,6 @@ from yawdamp_ros.vehicle import Vehicle
 try:
     import gymnasium
     from gymnasium.spaces import Box
-    from gymnasium.vector import SyncVectorEnv
 except ImportError as error:
     message = "gymnasium is not installed: pip install 'yawdamp_ros[gymnasium]'"
     raise ImportError(message) from error
@@ -129,26 +128,3 @@ class RigEnv(gymnasium.Env[FloatArray, FloatArray]):
         run = self.plant.run
         stopped = "" if run.stopped is None else run.stopped.reason
         return {"time": self.plant.time, "stopped": stopped}
-
-
-def vector_env(count: int, make: Callable[[], RigEnv]) -> SyncVectorEnv:
-    """Several environments behind one `VectorEnv`.
-
-    Parameters
-    ----------
-    count : int
-    make : callable
-        Function that makes one environment.
-
-    Returns
-    -------
-    gymnasium.vector.SyncVectorEnv
-
-    Examples
-    --------
-    >>> envs = vector_env(3, lambda: RigEnv(SimParameters(vehicle="truck_trailer"), lambda sample: 0.0))
-    >>> observations, info = envs.reset(seed=1)
-    >>> observations.shape == (3, *envs.single_observation_space.shape)
-    True
-    """
-    return SyncVectorEnv([make] * count)
