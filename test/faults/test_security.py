@@ -74,6 +74,11 @@ def test_the_permissions_are_all_that_the_node_says_and_hears_and_nothing_else(g
     assert covered(heard | {f"rq{name}Request" for name in services}, "subscribe")
     # Each permission is used, but for those of what is not there or not the node's own.
     others = {"ros_discovery_info", "rt/tf", "rt/tf_static", "rt/clock", "rt/parameter_events"}
+    others |= {
+        "rt/vehicle/status/*",
+        "rt/localization/kinematic_state",
+        "rt/control/command/*_cmd",
+    }  # autoware
     used = said | heard | {f"rr{name}Reply" for name in services} | {f"rq{name}Request" for name in services}
     for pattern in {*permitted("publish"), *permitted("subscribe")} - others:
         assert any(fnmatchcase(name, pattern) for name in used), pattern

@@ -1,5 +1,4 @@
 import signal
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,7 +81,8 @@ def test_a_whole_set_of_parameters_is_refused_for_one_of_them(graph: Graph) -> N
 
 def test_a_recording_can_be_stopped_and_started_and_each_part_repeats(graph: Graph) -> None:
     process = graph.command(
-        "sim", "--no-record", "--manoeuvre", "chirp", "--ros-args", "-p", "yaw_rate_stddev:=0.01"
+        *("sim", "--no-record", "--manoeuvre", "chirp", "--ros-args", "-p", "yaw_rate_stddev:=0.01"),
+        *("-p", "yaw_rate_drift:=0.01", "-p", "yaw_bias:=0.02", "-p", "imu_delay:=0.05"),
     )
     graph.listen({"/truck/imu": Imu})
     until(lambda: len(graph.received["/truck/imu"]) > 50, "samples before any recording")
@@ -120,13 +120,15 @@ def test_noise_is_on_the_imu_alone_with_its_covariance_and_repeats(graph: Graph)
     assert run(["resimulate", str(path)]) == 0
 
 
-def test_simulators_side_by_side_do_not_meet(graph: Graph) -> None:
+def test_simulators_side_by_side_do_not_meet_and_stand_in_one_world(graph: Graph) -> None:
     graph.listen({f"/{side}/truck/imu": Imu for side in ("left", "right")})
     processes = {
         side: graph.command(
-            "sim", "--manoeuvre", "step", "--amplitude", amplitude, "--ros-args", "-r", f"__ns:=/{side}"
+            *("sim", "--manoeuvre", "step", "--amplitude", amplitude, "--ros-args", "-r", f"__ns:=/{side}"),
+            *("-p", "world_frame:=map", "-p", f"initial_pose:=[0.0, {y}, 0.0]"),
+            *("-p", f"record_directory:=runs/{side}"),
         )
-        for side, amplitude in (("left", "0.05"), ("right", "-0.05"))
+        for side, amplitude, y in (("left", "0.05", "3.5"), ("right", "-0.05", "-3.5"))
     }
     until(lambda: all(len(messages) > 150 for messages in graph.received.values()), "samples of both")
     assert graph.call("/left/yawdamp_sim/reset", Trigger, Trigger.Request()).success
@@ -134,7 +136,16 @@ def test_simulators_side_by_side_do_not_meet(graph: Graph) -> None:
         assert stop(process)[0] == 0
     assert graph.messages("/left/truck/imu")[150].angular_velocity.z > 0.0
     assert all(message.angular_velocity.z <= 0.0 for message in graph.messages("/right/truck/imu"))
-    assert len(list(Path(graph.directory, "runs").iterdir())) == 2
+    parents: dict[str, str] = {}
+    for side, y in (("left", 3.5), ("right", -3.5)):
+        messages = recorded(graph.directory / "runs" / side)
+        assert messages[f"/{side}/truck/odom"][0][1].pose.pose.position.y == y
+        frames = [*messages["/tf"][0][1].transforms, *messages["/tf_static"][0][1].transforms]
+        for each in frames:
+            assert each.child_frame_id not in parents  # two nodes on one /tf would move it to and fro
+            parents[each.child_frame_id] = each.header.frame_id
+    assert (parents["left/odom"], parents["right/odom"]) == ("map", "map")
+    assert parents["right/truck"] == "right/odom"
 
 
 def test_a_recording_holds_the_vehicle_that_runs_whatever_became_of_its_file(graph: Graph) -> None:

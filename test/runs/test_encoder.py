@@ -6,12 +6,18 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Imu, JointState
 
 from yawdamp_ros import load_vehicle
-from yawdamp_ros.runs.encoder import Encoder, Noise, message_class
+from yawdamp_ros.runs.encoder import Encoder, message_class
 from yawdamp_ros.simulation import SimParameters, make_motion
 from yawdamp_ros.stepping import AppliedInput, Motion, TimeGrid
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, complete
 
 NOISY = {"yaw_stddev": 0.01, "yaw_rate_stddev": 0.02, "lateral_acceleration_stddev": 0.3, "noise_seed": 7}
+ERRONEOUS = NOISY | {
+    "yaw_bias": 0.1,
+    "yaw_rate_drift": 0.01,
+    "lateral_acceleration_bias": -0.2,
+    "imu_delay": 0.05,
+}
 
 
 def encoder(vehicle: str, step_size: float, noise: dict[str, float]) -> tuple[Motion, Encoder]:
@@ -21,7 +27,7 @@ def encoder(vehicle: str, step_size: float, noise: dict[str, float]) -> tuple[Mo
 
 
 @pytest.mark.parametrize("name", ["single_vehicle", "truck_trailer", "interlink"])
-@pytest.mark.parametrize("noise", [{}, NOISY])
+@pytest.mark.parametrize("noise", [{}, NOISY, ERRONEOUS])
 def test_messages_of_many_instants_are_those_of_each(name: str, noise: dict[str, float]) -> None:
     angles = 0.05 * np.sin(np.arange(1, 401) / 90)
     (one, of_one), (many, of_many) = (encoder(name, 0.001, noise) for _ in range(2))
@@ -44,7 +50,7 @@ def test_orientation_is_the_yaw_and_noise_is_on_imu_alone() -> None:
     def yaw(orientation: Quaternion) -> complex:
         return complex(orientation.w, orientation.z) ** 2
 
-    drawn = Noise(0.01, 0.0, 0.0, 3).of_step(1500, 2)[0]
+    drawn = 0.01 * np.random.default_rng([3, 1500]).standard_normal((2, 3))[:, 0]
     assert abs(sample.yaw[0]) > 2.0 * np.pi
     for unit, name in enumerate(motion.vehicle.unit_names):
         odometry = deserialize_message(by_topic[f"{name}/odom"], Odometry)
@@ -86,3 +92,33 @@ def test_axles_and_hitches_show_the_forces_that_balance_the_combination() -> Non
     expected = last.mass * complex(surge, sample.lateral_acceleration[-1])
     assert found == pytest.approx(expected, rel=0.02)
     assert surge == pytest.approx(-2.0, abs=0.2)
+
+
+def test_an_imu_is_late_and_off_and_walks_and_odometry_is_the_truth() -> None:
+    grid = TimeGrid.of(0.01, 0.1)
+
+    def shown(**errors: float) -> tuple[np.ndarray, np.ndarray]:
+        """Yaw rate of the truck by imu and by odometry over forty seconds."""
+        motion = make_motion(load_vehicle("truck_trailer"), "consistent", None, grid.step_size)
+        encodes = Encoder(motion, SimParameters(**errors), grid, start_time=0)  # type: ignore[arg-type]
+        angles = 0.02 * np.sin(np.arange(1, 4_001) / 30.0)
+        encoded = encodes.encoded(motion.run(angles, 10))
+        places = [list(encodes.types).index(f"truck/{name}") for name in ("imu", "odom")]
+        rates = []
+        for place, kind in zip(places, (Imu, Odometry), strict=True):
+            read = [deserialize_message(row[place], kind) for row in encoded.messages]
+            rates.append(
+                [(each.angular_velocity if kind is Imu else each.twist.twist.angular).z for each in read]
+            )
+        return np.array(rates[0]), np.array(rates[1])
+
+    imu, truth = shown(imu_delay=0.5, yaw_rate_bias=0.01)
+    np.testing.assert_allclose(imu[5:], truth[:-5] + 0.01, rtol=0.0, atol=1e-15)
+    assert imu[0] == truth[0] + 0.01
+    imu, truth = shown(yaw_rate_drift=0.001, noise_seed=3)
+    walk = imu - truth
+    seconds = walk[9::10]  # a sample each second, from the first on
+    assert 0.0007 < np.diff(seconds).std() < 0.0013
+    np.testing.assert_allclose(walk[14], 0.5 * (walk[9] + walk[19]), atol=1e-12)
+    assert np.array_equal(shown(yaw_rate_drift=0.001, noise_seed=3)[0], imu)
+    assert not np.array_equal(shown(yaw_rate_drift=0.001, noise_seed=4)[0], imu)

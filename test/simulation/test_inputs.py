@@ -226,3 +226,30 @@ def test_a_manoeuvre_leaves_no_steering_to_command() -> None:
     plant = Plant(SimParameters(manoeuvre="step"))
     with pytest.raises(SimulationError, match="steering: a run with a manoeuvre does not take it"):
         plant.step({"steering": 0.5})
+
+
+def test_dead_times_and_lags_delay_what_is_demanded() -> None:
+    settings = SimParameters(
+        model="nonlinear",
+        longitudinal_source="acceleration",
+        steering_dead_time=0.24,
+        acceleration_dead_time=0.1,
+        acceleration_time_constant=0.2,
+    )
+    motion = make_motion(VEHICLE, "nonlinear", 15.0, GRID.step_size)
+    commands, last = Commands(settings, GRID, motion), Last()
+    run = Run(motion, GRID, commands, [last])
+    run.start()
+    commands.steer(0.01)
+    commands.demand("acceleration", -2.0)
+    angles, demands = [], {}
+    for _ in range(60):
+        run.advance()
+        angles.append(float(last.sample.steering_angle))
+        demands |= {each.step: each.value for each in last.sample.inputs if each.name == "acceleration"}
+    # Step 241 is the first that lies 0.24 s after the step from which on the command acts.
+    assert (angles[23], angles[24]) == (0.0, 0.01)
+    for step, value in demands.items():
+        late = max(0.001 * (step - 1) - 0.1, 0.0)  # the demand acts from step 1 on
+        assert value == pytest.approx(-2.0 * (1.0 - np.exp(-late / 0.2)), abs=1e-9)
+    assert min(demands.values()) < -1.8

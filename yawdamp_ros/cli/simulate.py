@@ -239,7 +239,14 @@ def _encoder(
     encoder = Encoder(motion, settings, grid, start_time=0)
     source = vehicle_source(chosen_name(options), options.set)
     recipe = Recipe(
-        motion, grid, settings, source, stamps=encoder.stamps, types=encoder.types, frames=encoder.frames
+        motion,
+        grid,
+        settings,
+        source,
+        stamps=encoder.stamps,
+        types=encoder.types,
+        frames=encoder.frames,
+        sensors=encoder.sensors,
     )
     encoder.sinks.append(RunFile(recipe.open(directory, settings)))
     return encoder

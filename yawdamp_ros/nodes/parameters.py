@@ -13,6 +13,7 @@ from rclpy.parameter import Parameter
 
 from yawdamp_ros.nodes.errors import NodeError
 from yawdamp_ros.simulation.settings import FORMER_NAMES, FORMER_VALUES, PARAMETERS, SimParameters
+from yawdamp_ros.simulation.steering_messages import AUTOWARE_CONTROL
 
 DEEPEST_DIRECTORY = 32
 """Largest number of parts of a recording path that a peer may set."""
@@ -49,6 +50,9 @@ def declare_parameters(node: Node) -> SimParameters:
         _check(name, value)
     if namespace := node.get_namespace().strip("/"):
         given.setdefault("frame_prefix", f"{namespace}/")
+    if given.get("autoware"):
+        given.setdefault("steering_type", AUTOWARE_CONTROL)
+        given.setdefault("longitudinal_source", "steering")
     settings = SimParameters(**{PARAMETERS[name].name: value for name, value in given.items()})
     if problem := settings.problem():
         message = f"parameter {problem}"

@@ -55,11 +55,11 @@ class Server:
         self._diagnosis = Diagnosis(
             node.get_fully_qualified_name(),
             simulator.motion.vehicle.name,
-            node.resolve_topic_name("steering"),
+            node.resolve_topic_name(simulator.steering_topic),
         )
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", QUEUE_DEPTH)
         self._guard = guard = simulator.guard
-        self._neighbours = Neighbours(node, ("steering", *simulator.commands.held), simulator.topics.names)
+        self._neighbours = Neighbours(node, simulator.input_topics, simulator.topics.names)
         node.add_on_set_parameters_callback(self._check_parameters)
         node.add_post_set_parameters_callback(self._use_parameters)
         node.create_service(Trigger, "~/reset", guard(self._on_reset))

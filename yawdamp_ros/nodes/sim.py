@@ -55,9 +55,18 @@ class Simulator:
         )
         self.model = self.motion.linearise()
         self.commands = Commands(settings, self.grid, self.motion)
-        self._subscriptions: list[SteeringSubscription | InputSubscription] = [
-            InputSubscription(node, name, self.commands, self.guard) for name in self.commands.held
-        ]
+        self.steering_topic = "steering"
+        others = list(self.commands.held)
+        self._subscriptions: list[SteeringSubscription | InputSubscription] = []
+        if settings.autoware:
+            # Imported here: few need it.
+            from yawdamp_ros.nodes import autoware  # noqa: PLC0415
+
+            self.steering_topic = autoware.CONTROL
+            if "gear" in others:
+                others.remove("gear")
+                self._subscriptions.append(autoware.gear_subscription(node, self.commands, self.guard))
+        self._subscriptions += [InputSubscription(node, name, self.commands, self.guard) for name in others]
         if settings.manoeuvre == "none":
             steering = SteeringSubscription(
                 node,
@@ -66,6 +75,7 @@ class Simulator:
                 self.commands,
                 now=self._now,
                 guard=self.guard,
+                topic=self.steering_topic,
             )
             self._subscriptions.append(steering)
         # Time stamps and the pace of the samples are counted from one instant.
@@ -80,16 +90,25 @@ class Simulator:
             stamps=encoder.stamps,
             types=encoder.types,
             frames=encoder.frames,
+            sensors=encoder.sensors,
             resolve=node.resolve_topic_name,
         )
         self.recorder = Recorder(lambda directory: recipe.open(directory, self.settings))
         encoder.sinks += [self.topics, self.recorder]
+        if settings.autoware:
+            world = settings.world_frame or "map"
+            encoder.sinks.append(autoware.AutowareStatus(node, vehicle.units[0], self.commands, world))
         self.peaks = Peaks(len(vehicle.units))
         self.range = LinearRange(vehicle.unit_names, Limits.warning(settings), self._tell_range)
         sinks: list[Sink] = [encoder, self.peaks, self.range, _EventLog(node, self.grid)]
         self.run = Run(self.motion, self.grid, self.commands, sinks, Limits.of(settings))
         if settings.record:
             self.start_recording(numbered=not settings.record_directory)
+
+    @property
+    def input_topics(self) -> list[str]:
+        """Topics of all inputs, as the node subscribes to them."""
+        return [subscription.topic for subscription in self._subscriptions]
 
     @property
     def finished(self) -> bool:

@@ -59,6 +59,11 @@ class SteeringSubscription:
     now : callable
         Time in ns that stamps are held against.
     guard : Guard
+    topic : str
+
+    Attributes
+    ----------
+    topic : str
 
     Raises
     ------
@@ -75,16 +80,18 @@ class SteeringSubscription:
         *,
         now: Callable[[], int],
         guard: Guard,
+        topic: str = "steering",
     ) -> None:
         self._receive = guard(self._judge)
-        self._warn = _Warnings(node, "steering")
+        self.topic = topic
+        self._warn = _Warnings(node, topic)
         self._angle = STEERING_TYPES[type_name]
         self._demand = LONGITUDINAL_TYPES.get(type_name)
         self._joint = joint
         self._target = target
         self._now = now
         self._subscription = node.create_subscription(
-            steering_class(type_name), "steering", self._receive, QUEUE_DEPTH, event_callbacks=QUIET
+            steering_class(type_name), topic, self._receive, QUEUE_DEPTH, event_callbacks=QUIET
         )
 
     def take(self) -> None:
@@ -118,28 +125,50 @@ class InputSubscription:
     ----------
     node : Node
     name : str
-        One of `Commands.held`, and the topic.
+        One of `Commands.held`.
     target : Commands
     guard : Guard
+    topic : str
+        Topic; empty for the name.
+    kind : type
+        Message class.
+    value : callable
+        Function from a message to the value.
+
+    Attributes
+    ----------
+    topic : str
     """
 
-    def __init__(self, node: Node, name: str, target: Commands, guard: Guard) -> None:
-        self._name, self._target = name, target
+    def __init__(  # noqa: PLR0913 - the last three are of inputs in other packages' words
+        self,
+        node: Node,
+        name: str,
+        target: Commands,
+        guard: Guard,
+        *,
+        topic: str = "",
+        kind: Any = Float64,  # noqa: ANN401 - generated classes share no base
+        value: Callable[[Any], float] = lambda message: float(message.data),
+    ) -> None:
+        self.topic = topic or name
+        self._name, self._target, self._value = name, target, value
         self._receive = guard(self._judge)
         self._warn = _Warnings(node, name)
         self._subscription = node.create_subscription(
-            Float64, name, self._receive, QUEUE_DEPTH, event_callbacks=QUIET
+            kind, self.topic, self._receive, QUEUE_DEPTH, event_callbacks=QUIET
         )
 
     def take(self) -> None:
         """See `SteeringSubscription.take`."""
         _drain(self._subscription, self._receive)
 
-    def _judge(self, message: Float64) -> None:
-        verdict = self._target.demand(self._name, message.data)
+    def _judge(self, message: Any) -> None:  # noqa: ANN401 - of the kind
+        value = self._value(message)
+        verdict = self._target.demand(self._name, value)
         if verdict is not Verdict.ACCEPTED:
             count = self._target.held[self._name].counts[verdict]
-            self._warn(verdict, f"{message.data}: {VERDICT_SENTENCES[verdict]}, {count} so far")
+            self._warn(verdict, f"{value}: {VERDICT_SENTENCES[verdict]}, {count} so far")
 
 
 class _Warnings:

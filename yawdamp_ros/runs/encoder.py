@@ -11,6 +11,7 @@ import numpy as np
 from yawdamp_ros.dynamics.kinematics import ComplexArray, FloatArray
 from yawdamp_ros.runs.frames import Frames
 from yawdamp_ros.runs.outputs import FLOAT64, Of, Output, available, quantity, wheel_names
+from yawdamp_ros.runs.sensors import Sensors
 from yawdamp_ros.runs.templates import Blank, Templates
 from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.stepping import Event, Motion, Sample, TimeGrid
@@ -21,44 +22,6 @@ from yawdamp_ros.vehicle import STANDARD_GRAVITY, complete
 
 TWISTS = ("rate of the pose", "small angles")
 """Kinds of twist in an odometry message; earlier recordings hold the linear model's, for small angles."""
-
-
-class Noise(NamedTuple):
-    """Normally distributed noise on the imu topics alone.
-
-    It depends on the seed and the step alone, so that a resumed run repeats it.
-
-    Attributes
-    ----------
-    yaw, yaw_rate, lateral_acceleration : float
-        Standard deviations in rad, rad/s and m/s^2.
-    seed : int
-    """
-
-    yaw: float = 0.0
-    yaw_rate: float = 0.0
-    lateral_acceleration: float = 0.0
-    seed: int = 0
-
-    @classmethod
-    def of(cls, settings: SimParameters) -> "Noise":
-        """Return the noise of the settings."""
-        return cls(
-            settings.yaw_stddev,
-            settings.yaw_rate_stddev,
-            settings.lateral_acceleration_stddev,
-            settings.noise_seed,
-        )
-
-    @property
-    def present(self) -> bool:
-        """True if there is any."""
-        return any(self[:3])
-
-    def of_step(self, step: int, units: int) -> FloatArray:
-        """Noise on yaw, yaw rate and lateral acceleration of every unit at a step, shape (3, units)."""
-        generator = np.random.default_rng([self.seed, step])
-        return (generator.standard_normal((units, 3)) * self[:3]).T
 
 
 class Jump(NamedTuple):
@@ -142,6 +105,8 @@ class Encoder:
         Frames of the units, if the settings ask for them.
     types : dict of str to str
         Message type by relative topic, in the order of `Encoded.names`.
+    sensors : Sensors
+        Sensors that the imu topics show.
     sinks : list of EncodedSink
         Receivers of every sample, in this order.
     """
@@ -165,11 +130,13 @@ class Encoder:
         self.frames: Frames | None = None
         if settings.publish_tf:
             hitches = settings.publish_tf_hitches
-            self.frames = Frames(motion.vehicle, settings.frame_prefix, hitches=hitches)
+            self.frames = Frames(
+                motion.vehicle, settings.frame_prefix, hitches=hitches, world=settings.world_frame
+            )
         self._surge = surge
         self._last_speed = motion.step, motion.speed
         self._unit_names = motion.vehicle.unit_names
-        self._noise = Noise.of(settings)
+        self.sensors = Sensors(settings, grid, len(self._unit_names))
         self._frame_prefix = settings.frame_prefix
         self._last_steering: tuple[int, float] | None = None
         outputs = [
@@ -256,17 +223,14 @@ class Encoder:
             "steering_rate": self._steering_rates(sample.steering_angle, steps),
             "imu_longitudinal_acceleration": self._longitudinal(sample, steps),
         }
-        if self._noise.present:
-            shape = sample.yaw.shape
-            noise = np.array([self._noise.of_step(step, shape[-1]) for step in steps])
-            yaw, yaw_rate, lateral_acceleration = (np.reshape(noise[:, part], shape) for part in range(3))
-            half = half * np.exp(0.5j * yaw)
-            known |= {
-                "imu_z": half.imag,
-                "imu_w": half.real,
-                "imu_yaw_rate": sample.yaw_rate + yaw_rate,
-                "imu_lateral_acceleration": sample.lateral_acceleration + lateral_acceleration,
-            }
+        if not self.sensors.exact:
+            known |= self.sensors.readings(
+                steps,
+                half,
+                sample.yaw_rate,
+                known["imu_longitudinal_acceleration"],
+                sample.lateral_acceleration,
+            )
         for name, value in self._own.items():
             known[name] = value(sample)
         return known
@@ -332,11 +296,12 @@ class Encoder:
         # An accelerometer at rest shows gravity upwards (REP-145).
         message.linear_acceleration.z = STANDARD_GRAVITY
         # All zeros mean that a covariance is not known (REP-145); without noise there is none to know.
-        for covariance, deviation in (
-            (message.orientation_covariance, self._noise.yaw),
-            (message.angular_velocity_covariance, self._noise.yaw_rate),
-            (message.linear_acceleration_covariance, self._noise.lateral_acceleration),
-        ):
+        covariances = (
+            message.orientation_covariance,
+            message.angular_velocity_covariance,
+            message.linear_acceleration_covariance,
+        )
+        for covariance, deviation in zip(covariances, self.sensors.deviations, strict=True):
             covariance[::4] = deviation**2
 
     def _prepare_odometry(self, message: Any, unit: str) -> None:  # noqa: ANN401

@@ -31,15 +31,19 @@ class Frames:
         Prefix of every frame's name.
     hitches : bool
         Whether the frames behind the lead unit are among them.
+    world : str
+        Frame that holds the ground frame of each rig; empty for none.
     """
 
-    def __init__(self, vehicle: Vehicle, prefix: str, *, hitches: bool = True) -> None:
+    def __init__(self, vehicle: Vehicle, prefix: str, *, hitches: bool = True, world: str = "") -> None:
         names = [prefix + name for name in vehicle.unit_names]
         joints = list(zip(names, names[1:], vehicle.hitches, strict=False)) if hitches else []
         moving = [(f"{prefix}odom", names[0], 0.0)]
         moving += [(towing, hitch_frame(towed), rear) for towing, towed, (rear, _) in joints]
         self._moving = _Layout(moving)
-        self._fixed = _Layout([(hitch_frame(towed), towed, -front) for _, towed, (_, front) in joints])
+        fixed = [(world, f"{prefix}odom", 0.0)] if world else []
+        fixed += [(hitch_frame(towed), towed, -front) for _, towed, (_, front) in joints]
+        self._fixed = _Layout(fixed)
         self._joints = len(joints)
 
     def moving(self, sample: Sample, stamps: Sequence[int]) -> list[bytes]:
@@ -59,7 +63,7 @@ class Frames:
         ]
 
     def fixed(self, stamp: int) -> bytes:
-        """Message of the fixed frames, from a hitch to the unit that it tows; stamp [ns]."""
+        """Message of the fixed frames: world to ground, and hitch to the unit that it tows; stamp [ns]."""
         return self._fixed.message(stamp)
 
 

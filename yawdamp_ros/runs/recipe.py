@@ -16,6 +16,7 @@ from yawdamp_ros.runs.jumps import INT64, JUMP
 from yawdamp_ros.runs.outputs import EVENTS, FLOAT64
 from yawdamp_ros.runs.recorded_vehicle import METADATA_NAME, VEHICLE_FILE
 from yawdamp_ros.runs.run_writer import Channel, RunWriter, SerialisedMessage
+from yawdamp_ros.runs.sensors import Sensors
 from yawdamp_ros.runs.templates import ENCAPSULATION
 from yawdamp_ros.simulation import SimParameters
 from yawdamp_ros.stepping import AppliedInput, Command, Event, Motion, TimeGrid
@@ -52,6 +53,8 @@ class Recipe:
         Message type of every output by relative topic.
     frames : Frames, optional
         Frames of the units, if they are to be recorded.
+    sensors : Sensors, optional
+        Sensors, whose delay reaches back before a recording.
     resolve : callable, optional
         Function from a relative topic to its fully qualified name.
     """
@@ -66,6 +69,7 @@ class Recipe:
         stamps: Stamps,
         types: Mapping[str, str],
         frames: Frames | None = None,
+        sensors: Sensors | None = None,
         resolve: Callable[[str], str] = "/{}".format,
     ) -> None:
         self._motion, self._grid = motion, grid
@@ -75,6 +79,7 @@ class Recipe:
             name: Channel(resolve(applied_topic(name)), input_type(name)) for name in motion.input_names
         }
         self._frames = frames
+        self._sensors = sensors
         # Models with the linear quantities alone have no events.
         self._events = {EVENTS: Channel(resolve(EVENTS), EVENT_TYPE)} if motion.quantity_names else {}
         self._jumps = Channel(resolve(JUMP), INT64)
@@ -131,6 +136,7 @@ class Recipe:
             ),
             "twist": TWISTS[0],
             "surge": "true",
+            "imu_history": json.dumps([] if self._sensors is None else self._sensors.history),
             "jump_topic": self._jumps.topic,
             "version": VERSION,
             "python": platform.python_version(),

@@ -96,6 +96,7 @@ class Resimulation:
                 twist=known.get("twist", TWISTS[-1]),
                 surge=known.get("surge", "") == "true",
             )
+            self._encoder.sensors.history = json.loads(known.get("imu_history", "[]"))
             self._encoder.sinks.append(self)
             self._source = _Recorded(motion.steering_angle)
             self._run = Run(motion, self._grid, self._source, [self._encoder])
@@ -191,7 +192,8 @@ class Resimulation:
         shown = [
             field.name
             for field in fields(SimParameters)
-            if field.name.endswith("_stddev") or field.name in {"noise_seed", "frame_prefix"}
+            if field.name.endswith(("_stddev", "_bias", "_drift"))
+            or field.name in {"noise_seed", "imu_delay", "frame_prefix"}
         ]
         return replace(
             SimParameters(),

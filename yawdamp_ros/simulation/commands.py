@@ -15,6 +15,7 @@ from yawdamp_ros.simulation.steering_messages import LongitudinalDemand
 from yawdamp_ros.stepping import (
     AppliedInput,
     Command,
+    DelayedDemand,
     Motion,
     SteeringActuator,
     SteeringInput,
@@ -92,14 +93,19 @@ class Commands:
             self.held["speed"].value = settings.speed
         self._applied: dict[str, float | None] = {"speed": motion.speed}
         self._speed_rate = 0.0
+        self._lag: DelayedDemand | None = None
+        if settings.acceleration_dead_time or settings.acceleration_time_constant:
+            self._lag = DelayedDemand(settings.acceleration_dead_time, settings.acceleration_time_constant)
+        self._delayed = deque([0.0] * self._steps_in(settings.steering_dead_time))
         self._settings = settings
         self._reset = False
         self._route = FrictionRoute.read(Path(settings.friction_file)) if settings.friction_file else None
         self._distance = 0.0
         self._last = motion.step, motion.speed
-        self.samples_at_once = SAMPLES_AT_ONCE if self._route is None else 1
+        self.samples_at_once = SAMPLES_AT_ONCE if self._route is None and self._lag is None else 1
         self._received: list[Command] = []
         self._command = self._command_source(settings, log)
+        self._by_topic = settings.manoeuvre == "none" and log is None
         if missing := sorted(inputs.keys() - self.held.keys()):
             known = ", ".join(self.held)
             message = f"{missing[0]}: model {settings.model} does not take it; expected one of {known}"
@@ -237,12 +243,24 @@ class Commands:
         """Inputs that differ from the applied ones, from a step on."""
         found = []
         for name, held in self.held.items():
-            value = self._approached(held.value) if name == "speed" else held.value
+            value = held.value
+            if name == "speed":
+                value = self._approached(value)
+            elif name == "acceleration" and self._lag is not None:
+                value = self._lagged(value, step)
             if value is not None and value != self._applied.get(name):
                 self._applied[name] = value
                 found.append(AppliedInput(step, name, value))
                 self._end_other(name)
         return found
+
+    def _lagged(self, acceleration: float | None, step: int) -> float | None:
+        """Acceleration to apply from a step on [m/s^2]."""
+        assert self._lag is not None  # noqa: S101 - only then it is called
+        if acceleration is None:
+            self._lag.clear()
+            return None
+        return self._lag.follow(self._grid.seconds(step), acceleration)
 
     def _approached(self, speed: float | None) -> float | None:
         """Speed to apply in this period on the way to a target [m/s]."""
@@ -259,6 +277,9 @@ class Commands:
             if name in LONGITUDINAL and other != name and other in self.held:
                 self.held[other].value = self._applied[other] = None
 
+    def _steps_in(self, time: float) -> int:
+        return nanoseconds(time) // self._grid.step_ns
+
     def _step_at(self, time: float) -> int:
         """First step at a time in s or after it."""
         step = nanoseconds(time) // self._grid.step_ns
@@ -266,7 +287,19 @@ class Commands:
 
     def steering(self, steps: range) -> Sequence[float]:
         """See `Source`."""
-        return self._actuator.follow_all(list(map(self._command, steps)))
+        commands = self._commands(steps)
+        if self._delayed:
+            self._delayed.extend(commands)
+            commands = [self._delayed.popleft() for _ in steps]
+        return self._actuator.follow_all(commands)
+
+    def _commands(self, steps: range) -> list[float]:
+        """Angles demanded from each of these steps on [rad]."""
+        if not self._by_topic:
+            return list(map(self._command, steps))
+        # No command comes in between, so that the angle changes at most once, at a timeout.
+        first, last = self._command(steps[0]), self._command(steps[-1])
+        return [first] * len(steps) if first == last else list(map(self._command, steps))
 
     def received(self) -> tuple[Command, ...]:
         """See `Source`."""

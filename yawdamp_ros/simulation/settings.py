@@ -10,7 +10,11 @@ from yawdamp_ros.dynamics import LOWEST_SPEED
 from yawdamp_ros.dynamics.linear_range import LINEAR_ARTICULATION, LINEAR_LATERAL_ACCELERATION
 from yawdamp_ros.manoeuvres import MANOEUVRES, SETTINGS
 from yawdamp_ros.simulation.models import MODELS
-from yawdamp_ros.simulation.steering_messages import LONGITUDINAL_TYPES, STEERING_TYPES
+from yawdamp_ros.simulation.steering_messages import (
+    AUTOWARE_CONTROL,
+    LONGITUDINAL_TYPES,
+    STEERING_TYPES,
+)
 from yawdamp_ros.stepping import Start
 from yawdamp_ros.stepping.held_input import FASTEST_REVERSE, HIGHEST_SPEED
 
@@ -122,6 +126,10 @@ class SimParameters:
         limits=(0.0, 100.0),
         dynamic=True,
     )
+    autoware: bool = _parameter(
+        default=False,
+        description="take Autoware's control_cmd and gear_cmd, and publish its vehicle status",
+    )
     friction_file: str = _parameter(
         "",
         "CSV file with the columns distance in m along the path and friction from there on; nonlinear model",
@@ -151,6 +159,15 @@ class SimParameters:
     )
     on_steering_timeout: str = _parameter(
         "hold", "after a timeout: hold the last command, or zero", choices=("hold", "zero"), dynamic=True
+    )
+    steering_dead_time: float = _parameter(
+        0.0, "time in s from a steering command until the road wheels begin to follow", limits=(0.0, 10.0)
+    )
+    acceleration_dead_time: float = _parameter(
+        0.0, "time in s from a demanded acceleration until it begins to act", limits=(0.0, 10.0)
+    )
+    acceleration_time_constant: float = _parameter(
+        0.0, "first-order lag of a demanded acceleration in s; 0: none", limits=(0.0, 10.0)
     )
     steering_time_constant: float = _parameter(
         0.0, "first-order lag of the road wheels in s; 0: none", limits=(0.0, 10.0)
@@ -223,6 +240,10 @@ class SimParameters:
         default=True,
         description="also those behind the lead unit; false beside a robot_state_publisher",
     )
+    world_frame: str = _parameter(
+        "",
+        "frame that all rigs share, such as map, to which the frame odom of this one is fixed; empty: none",
+    )
     frame_prefix: str = _parameter(
         "",
         "prefix of the names of all frames, such as left/, which keeps nodes side by side apart on /tf",
@@ -236,6 +257,29 @@ class SimParameters:
     )
     lateral_acceleration_stddev: float = _parameter(
         0.0, "standard deviation of the noise on imu's lateral acceleration in m/s^2", limits=(0.0, 10.0)
+    )
+    yaw_bias: float = _parameter(0.0, "constant error of imu's yaw in rad", limits=(-1.0, 1.0))
+    yaw_rate_bias: float = _parameter(0.0, "constant error of imu's yaw rate in rad/s", limits=(-1.0, 1.0))
+    lateral_acceleration_bias: float = _parameter(
+        0.0, "constant error of imu's lateral acceleration in m/s^2", limits=(-10.0, 10.0)
+    )
+    yaw_drift: float = _parameter(
+        0.0,
+        "random walk of imu's yaw, standard deviation after a second in rad",
+        limits=(0.0, 1.0),
+    )
+    yaw_rate_drift: float = _parameter(
+        0.0,
+        "random walk of imu's yaw rate, standard deviation after a second in rad/s",
+        limits=(0.0, 1.0),
+    )
+    lateral_acceleration_drift: float = _parameter(
+        0.0,
+        "random walk of imu's lateral acceleration, standard deviation after a second in m/s^2",
+        limits=(0.0, 10.0),
+    )
+    imu_delay: float = _parameter(
+        0.0, "time in s by which imu shows the motion late, in whole sample periods", limits=(0.0, 10.0)
     )
     noise_seed: int = _parameter(
         0, "seed of the noise: the same seed gives the same noise", limits=(0, 2**31 - 1)
@@ -275,6 +319,8 @@ class SimParameters:
         return ""
 
     def _source_problem(self) -> str:
+        if self.autoware and self.steering_type != AUTOWARE_CONTROL:
+            return f"autoware: true: steering_type is {self.steering_type}; expected {AUTOWARE_CONTROL}"
         if self.longitudinal_source != "steering":
             return ""
         if self.manoeuvre != "none":

@@ -6,6 +6,9 @@ from typing import Any, NamedTuple
 
 from yawdamp_ros.stepping.time_grid import SECOND
 
+AUTOWARE_CONTROL = "autoware_control_msgs/msg/Control"
+"""Type of Autoware's control commands."""
+
 
 def _joint_angle(message: Any, joint: str) -> float | None:  # noqa: ANN401 - made from a definition
     names = list(message.name)
@@ -20,7 +23,7 @@ STEERING_TYPES: Mapping[str, Callable[[Any, str], float | None]] = MappingProxyT
         "sensor_msgs/msg/JointState": _joint_angle,
         "ackermann_msgs/msg/AckermannDriveStamped": lambda message, _: float(message.drive.steering_angle),
         "autoware_control_msgs/msg/Lateral": lambda message, _: float(message.steering_tire_angle),
-        "autoware_control_msgs/msg/Control": lambda message, _: float(message.lateral.steering_tire_angle),
+        AUTOWARE_CONTROL: lambda message, _: float(message.lateral.steering_tire_angle),
         "autoware_vehicle_msgs/msg/SteeringReport": lambda message, _: float(message.steering_tire_angle),
         "autoware_auto_vehicle_msgs/msg/SteeringReport": lambda message, _: float(
             message.steering_tire_angle
@@ -67,7 +70,7 @@ def _autoware(message: Any) -> LongitudinalDemand:  # noqa: ANN401
 LONGITUDINAL_TYPES: Mapping[str, Callable[[Any], LongitudinalDemand]] = MappingProxyType(
     {
         "ackermann_msgs/msg/AckermannDriveStamped": _ackermann,
-        "autoware_control_msgs/msg/Control": _autoware,
+        AUTOWARE_CONTROL: _autoware,
     }
 )
 """Types that hold a speed besides the angle, each with a function to what it demands."""

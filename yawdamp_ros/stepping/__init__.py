@@ -1,5 +1,6 @@
 """Time: one fixed step, the same object for the node and for offline runs."""
 
+from yawdamp_ros.stepping.delayed_demand import DelayedDemand
 from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.held_input import HeldInput
 from yawdamp_ros.stepping.motion import Motion
@@ -16,6 +17,7 @@ from yawdamp_ros.stepping.verdict import Verdict
 __all__ = [
     "AppliedInput",
     "Command",
+    "DelayedDemand",
     "Event",
     "HeldInput",
     "Motion",
