@@ -104,3 +104,20 @@ def test_after_a_rollover_the_nonlinear_model_says_nothing() -> None:
     unknown = np.isnan(found["tractor/yaw_rate"])
     assert 50 < np.argmax(unknown) < 900
     assert unknown[np.argmax(unknown) :].all()
+
+
+def test_inputs_in_force_at_the_start_of_a_window_are_kept() -> None:
+    times = np.arange(4.0)
+    rare = np.array([0.0, 3.0])
+    drive = Drive(
+        "made",
+        {
+            "steering": Channel("steering", "made", times, 0.1 * times),
+            "acceleration": Channel("acceleration", "made", rare, np.array([0.5, -0.5])),
+            "yaw_rate": Channel("yaw_rate", "made", rare, rare),
+        },
+    )
+    part = drive.window(1.5)
+    assert (part["steering"].times.tolist(), part["yaw_rate"].times.tolist()) == ([0.5, 1.5], [1.5])
+    assert part["acceleration"].times.tolist() == [0.0, 1.5]
+    assert part["acceleration"].values.tolist() == [0.5, -0.5]

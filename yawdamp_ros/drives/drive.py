@@ -11,6 +11,7 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.held_input import HIGHEST_SPEED, LOWEST_FOLLOWED
 
 INPUTS = ("steering", "speed", "acceleration", "gear", "friction")
+"""Channels that act on a vehicle, besides those of its units; every other one was measured on it."""
 
 
 def is_input(name: str) -> bool:
@@ -31,9 +32,6 @@ def is_input(name: str) -> bool:
     [True, True, False]
     """
     return name in INPUTS or name.rpartition("/")[2] in {"steering", "brake", "yaw_moment"}
-
-
-"""Channels that act on a vehicle; every other one was measured on it."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +130,8 @@ class Drive:
         """
         end = float("inf") if duration is None else start + duration
         cut = {
-            name: channel.window(start, end, held=name == "speed") for name, channel in self.channels.items()
+            name: channel.window(start, end, held=is_input(name) and name != "steering")
+            for name, channel in self.channels.items()
         }
         kept = {name: channel for name, channel in cut.items() if len(channel.times)}
         if not kept or ("steering" in self and "steering" not in kept):
