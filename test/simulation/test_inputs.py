@@ -8,6 +8,7 @@ import pytest
 
 from runs import recorded
 from yawdamp_ros.cli.simulate import main
+from yawdamp_ros.runs.recipe import applied_topic
 from yawdamp_ros.runs.resimulation import Resimulation
 from yawdamp_ros.runs.response_recording import read_response_recording
 from yawdamp_ros.simulation import Commands, Run, SimParameters, SimulationError, make_motion
@@ -133,6 +134,28 @@ def test_a_log_stops_a_rig_lets_it_stand_and_backs_it(
     list(again.compare())
     assert again.bit_identical
     assert again.agrees
+
+
+def test_a_run_with_every_input_repeats_bit_for_bit(tmp_path: Path) -> None:
+    motion = make_motion(VEHICLE, "nonlinear", None, GRID.step_size)
+    names = ["steering_angle", *(name for name in held_inputs(motion) if name != "speed")]
+    limits = {"gear": 1.0, "friction": 0.8, "brake": 1.5, "yaw_moment": 2e4, "steering": 0.02}
+    most = np.array([limits.get(name.rpartition("/")[2], 0.02) for name in names])
+    drawn = most * np.random.default_rng(4).uniform(0.1, 1.0, (60, len(names)))
+    drawn[:, names.index("gear")] = np.where(np.arange(60) < 50, 1.0, 0.0)
+    rows = [",".join(map(str, [0.05 * row, *values])) for row, values in enumerate(drawn.tolist())]
+    (tmp_path / "log.csv").write_text("\n".join([",".join(["time", *names]), *rows]))
+    output = tmp_path / "run"
+    options = ["--column", "steering_angle", "--model", "nonlinear", "--output", str(output)]
+    options += ["--longitudinal-source", "acceleration", "--channel", "trailer_2/steering=trailer_2/steering"]
+    changes = [word for change in COMMANDED for word in ("--set", change)]
+    assert main(["--log", str(tmp_path / "log.csv"), *options, *changes]) == 0
+    assert {
+        f"/{applied_topic(name)}" for name in motion.input_names if name not in {"speed", "reset"}
+    } <= set(recorded(output))
+    again = Resimulation(output)
+    list(again.compare())
+    assert (again.bit_identical, again.agrees) == (True, True)
 
 
 def test_a_speed_that_a_topic_left_is_no_speed_that_is_set() -> None:
