@@ -62,8 +62,11 @@ def _parse(rows: Iterator[list[str]], path: Path) -> Response:
     if not units:
         raise LogError(path, "no column <unit>/yaw; expected a run as simulate --output FILE.csv writes it")
     needed = {field.name for field in fields(Response)}
+    # A single unit has no articulation: no column, and an array of none.
     known = {
-        output.name: names for output in outputs.OUTPUTS if output.unit and (names := output.names(units))
+        output.name: names
+        for output in outputs.OUTPUTS
+        if output.unit and ((names := output.names(units)) or output.name in needed)
     }
     expected = ["time", *(name for key in known if key in needed for name in known[key])]
     places = {name: place for place, name in enumerate(header)}
