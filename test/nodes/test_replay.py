@@ -9,7 +9,6 @@ from std_msgs.msg import Float64
 
 from graph import Graph, outcome, stop, until
 from runs import OUTPUTS, PERIOD, check_all_came, recorded, run_directory, stepped_again
-from yawdamp_ros.cli import run
 from yawdamp_ros.logs import read_steering_csv
 
 pytestmark = pytest.mark.graph
@@ -84,18 +83,10 @@ def test_a_stop_while_waiting_for_a_subscriber_is_in_good_order(graph: Graph, lo
         ([], "the following arguments are required: LOG"),
     ],
 )
-def test_wrong_use_is_one_line_and_status_2(
-    arguments: list[str],
-    message: str,
-    log: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capfd: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.chdir(log.parent)
-    monkeypatch.setenv("ROS_DOMAIN_ID", "98")
-    assert run(["replay", *arguments]) == 2
-    output, errors = capfd.readouterr()
-    assert output == ""
+@pytest.mark.usefixtures("log")
+def test_wrong_use_is_one_line_and_status_2(graph: Graph, arguments: list[str], message: str) -> None:
+    status, output, errors = outcome(graph.command("replay", *arguments))
+    assert (status, output) == (2, "")
     assert message in errors
     assert errors.count("\n") == 1
 

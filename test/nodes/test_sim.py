@@ -27,7 +27,6 @@ from runs import (
     stepped_again,
 )
 from yawdamp_ros import load_vehicle, simulate
-from yawdamp_ros.cli import run
 from yawdamp_ros.manoeuvres import Sine
 from yawdamp_ros.nodes.graph import join, ros_graph, spin
 from yawdamp_ros.nodes.server import Server
@@ -286,18 +285,9 @@ def test_what_is_not_wanted_is_neither_published_nor_recorded(graph: Graph) -> N
         (["--ros-args", "-p", "vehicle_overrides:=['units.1.mass=0']"], "units.1.mass: 0: expected a mass"),
     ],
 )
-def test_wrong_use_is_one_line_and_status_2(
-    arguments: list[str],
-    message: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capfd: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("ROS_DOMAIN_ID", "98")
-    assert run(["sim", *arguments]) == 2
-    output, errors = capfd.readouterr()
-    assert output == ""
+def test_wrong_use_is_one_line_and_status_2(graph: Graph, arguments: list[str], message: str) -> None:
+    status, output, errors = outcome(graph.command("sim", *arguments))
+    assert (status, output) == (2, "")
     assert message in errors
     assert errors.count("\n") == 1
 
