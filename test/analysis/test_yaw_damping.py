@@ -208,7 +208,7 @@ def test_no_verdict_on_2000_random_vehicles_is_contradicted_by_their_modes(
 
 @pytest.mark.parametrize("speed", [80 / 3.6, 40.0])
 def test_mode_that_swings_alone_has_the_same_damping_by_its_peaks(speed: float) -> None:
-    """Of single vehicles: a combination has no mode that swings alone."""
+    """Only single vehicles have a mode that swings alone."""
     generator, compared = np.random.default_rng(7), 0
     while compared < 25:
         model = linear_model(built_in_but_changed(generator, "single_vehicle"), speed)

@@ -7,6 +7,7 @@ from sensor_msgs.msg import Imu, JointState
 
 from yawdamp_ros import load_vehicle
 from yawdamp_ros.runs.encoder import Encoder, message_class
+from yawdamp_ros.runs.sensors import Sensors
 from yawdamp_ros.simulation import SimParameters, make_motion
 from yawdamp_ros.stepping import AppliedInput, Motion, TimeGrid
 from yawdamp_ros.vehicle import STANDARD_GRAVITY, complete
@@ -122,3 +123,15 @@ def test_an_imu_is_late_and_off_and_walks_and_odometry_is_the_truth() -> None:
     np.testing.assert_allclose(walk[14], 0.5 * (walk[9] + walk[19]), atol=1e-12)
     assert np.array_equal(shown(yaw_rate_drift=0.001, noise_seed=3)[0], imu)
     assert not np.array_equal(shown(yaw_rate_drift=0.001, noise_seed=4)[0], imu)
+
+
+def test_the_drift_is_drawn_apart_from_the_noise() -> None:
+    grid, zero = TimeGrid.of(0.01, 0.1), np.zeros((1, 2))
+
+    def error(step: int, **errors: float) -> np.ndarray:
+        sensors = Sensors(SimParameters(**errors), grid, units=2)  # type: ignore[arg-type]
+        return sensors.readings([step], zero + 1.0, zero, zero, zero)["imu_yaw_rate"]
+
+    walked = error(100, yaw_rate_drift=1.0)  # the first knot, after a second
+    for step in (0, 1, 100):
+        assert not np.allclose(error(step, yaw_rate_stddev=1.0), walked)

@@ -33,6 +33,28 @@ def corners(vehicle: Vehicle) -> tuple[tuple[int, complex], ...]:
     return tuple(found)
 
 
+def straight_places(vehicle: Vehicle) -> FloatArray:
+    """Places of the centres of gravity along a straight combination, from the lead unit's.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        In m, to the front positive.
+
+    Examples
+    --------
+    >>> from yawdamp_ros.vehicle import load_vehicle
+    >>> places = straight_places(load_vehicle("interlink"))
+    >>> bool(places[0] == 0.0 > places[1] > places[2])
+    True
+    """
+    return np.cumsum([0.0, *(rear - front for rear, front in vehicle.hitches)])
+
+
 def lateral_positions(vehicle: Vehicle, found: Outputs, direction: float) -> FloatArray:
     """Lateral positions of all corners across a direction.
 

@@ -3,15 +3,13 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
-from yawdamp_ros.analysis import nonlinear_runs
 from yawdamp_ros.analysis.bodies import lateral_positions
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.lane_change import steer_axle_position
-from yawdamp_ros.analysis.nonlinear_runs import drive_lane_change
+from yawdamp_ros.analysis.nonlinear_runs import Run, drive_lane_change
 from yawdamp_ros.analysis.swept_path import along_guide
 from yawdamp_ros.analysis.tractrix import low_speed_turn
 from yawdamp_ros.dynamics.kinematics import FloatArray
@@ -40,19 +38,6 @@ FREE = 1e-3
 """Cornering stiffness of a castering axle [N/rad]."""
 WALKING = 1.0
 """Speed at which a stop counts as done [m/s]."""
-
-
-class Run(NamedTuple):
-    """Samples of a driven run.
-
-    Attributes
-    ----------
-    inputs : ndarray, shape (m, k)
-    outputs : Outputs
-    """
-
-    inputs: FloatArray
-    outputs: Outputs
 
 
 def steer_tyre_friction_demand(vehicle: Vehicle) -> float:
@@ -129,14 +114,13 @@ def friction_use(vehicle: Vehicle) -> tuple[FloatArray, FloatArray]:
     length = APPROACH + turn.radius * turn.angle + sum(unit.leader for unit in turn.geometry)
     gains = np.array([axle.low_speed_steering for unit in vehicle.units for axle in unit.axles])
     inputs = dynamics.inputs(speed=speed)
-    run = _driven(dynamics, state, inputs, steering, length / speed, gains=gains)
+    out = _driven(dynamics, state, inputs, steering, length / speed, gains=gains)
     steered = [
         wheel
         for number, axle in enumerate(vehicle.units[0].axles)
         if axle.steered
         for wheel in (2 * number, 2 * number + 1)
     ]
-    out = run.outputs
     force = np.hypot(out.longitudinal_force[:, steered], out.lateral_force[:, steered]).sum(axis=1)
     load = out.wheel_load[:, steered].sum(axis=1)
     point = out.position[:, 0, 0] + 1j * out.position[:, 0, 1] + arm * np.exp(1j * out.yaw[:, 0])
@@ -179,7 +163,7 @@ def load_transfer_ratio(vehicle: Vehicle, speed: float) -> float:
     return max(float(ratio.max()) for ratio in load_transfers(vehicle, run).values())
 
 
-def load_transfers(vehicle: Vehicle, run: nonlinear_runs.Run) -> dict[str, FloatArray]:
+def load_transfers(vehicle: Vehicle, run: Run) -> dict[str, FloatArray]:
     """Load transfer ratios of the units that roll together, over a run.
 
     Parameters
@@ -244,11 +228,11 @@ def directional_stability_under_braking(vehicle: Vehicle, speed: float) -> float
     >>> directional_stability_under_braking(load_vehicle("interlink"), 60.0 / 3.6) < 3.0
     True
     """
-    return float(np.ptp(lateral_positions(vehicle, stop_on_split_friction(vehicle, speed).outputs, 0.0)))
+    return float(np.ptp(lateral_positions(vehicle, stop_on_split_friction(vehicle, speed), 0.0)))
 
 
-def stop_on_split_friction(vehicle: Vehicle, speed: float) -> Run:
-    """Run of `directional_stability_under_braking`.
+def stop_on_split_friction(vehicle: Vehicle, speed: float) -> Outputs:
+    """Drive the stop of `directional_stability_under_braking`.
 
     Parameters
     ----------
@@ -258,7 +242,8 @@ def stop_on_split_friction(vehicle: Vehicle, speed: float) -> Run:
 
     Returns
     -------
-    Run
+    Outputs
+        From the beginning of braking to the stop.
 
     Raises
     ------
@@ -268,8 +253,8 @@ def stop_on_split_friction(vehicle: Vehicle, speed: float) -> Run:
     Examples
     --------
     >>> from yawdamp_ros.vehicle import load_vehicle
-    >>> run = stop_on_split_friction(load_vehicle("single_vehicle"), 10.0)
-    >>> bool(run.outputs.velocity[-1, 0, 0] <= WALKING)
+    >>> stop = stop_on_split_friction(load_vehicle("single_vehicle"), 10.0)
+    >>> bool(stop.velocity[-1, 0, 0] <= WALKING)
     True
     """
     dynamics = NonlinearDynamics(vehicle)
@@ -280,11 +265,11 @@ def stop_on_split_friction(vehicle: Vehicle, speed: float) -> Run:
         return -yaw - math.atan(GAIN * aside)
 
     inputs = dynamics.inputs(acceleration=-HARD_BRAKING, friction=SPLIT_FRICTION)
-    run = _driven(dynamics, dynamics.initial_state(speed), inputs, steering, LONGEST_STOP, WALKING)
-    if run.outputs.velocity[-1, 0, 0] > WALKING:
+    stop = _driven(dynamics, dynamics.initial_state(speed), inputs, steering, LONGEST_STOP, WALKING)
+    if stop.velocity[-1, 0, 0] > WALKING:
         message = f"{vehicle.name}: does not stop within {LONGEST_STOP:g} s"
         raise AnalysisError(message)
-    return run
+    return stop
 
 
 def _castering(vehicle: Vehicle) -> Vehicle:
@@ -312,7 +297,7 @@ def _driven(  # noqa: PLR0913, PLR0917 - the whole of one run
     duration: float,
     slowest: float = -1.0,
     gains: FloatArray | None = None,
-) -> Run:
+) -> Outputs:
     """Drive for a time, or until the speed is low, steering by position and yaw of the lead unit.
 
     Axles steer against the articulation of their unit's front hitch by gains, if there are any.
@@ -333,4 +318,4 @@ def _driven(  # noqa: PLR0913, PLR0917 - the whole of one run
         state = taken.states[-1]
         states.append(state)
         rows.append(row.copy())
-    return Run(np.array(rows), dynamics.outputs(np.array(states), np.array(rows)))
+    return dynamics.outputs(np.array(states), np.array(rows))

@@ -139,8 +139,7 @@ def tail_swing(vehicle: Vehicle) -> float:
     True
     """
     turn = low_speed_turn(vehicle)
-    bodies = [index for index, unit in enumerate(turn.geometry) if unit.body]
-    return max((float(rear_swing(turn, index).max()) for index in bodies), default=0.0)
+    return max((float(rear_swing(turn, index).max()) for index in turn.bodies), default=0.0)
 
 
 def rear_swing(turn: Turn, unit: int) -> FloatArray:
@@ -223,8 +222,7 @@ def stations(turn: Turn) -> FloatArray:
 def _swings(vehicle: Vehicle) -> Iterator[tuple[FloatArray, FloatArray]]:
     """Front swings of each unit with a body and of the next one behind it that has one."""
     turn = low_speed_turn(vehicle)
-    bodies = [index for index, unit in enumerate(turn.geometry) if unit.body]
-    return pairwise([front_swing(turn, index) for index in bodies])
+    return pairwise([front_swing(turn, index) for index in turn.bodies])
 
 
 def front_swing(turn: Turn, unit: int) -> FloatArray:

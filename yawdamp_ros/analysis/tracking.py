@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import ndtri
 
-from yawdamp_ros.analysis.bodies import corners, lateral_positions
+from yawdamp_ros.analysis.bodies import corners, lateral_positions, straight_places
 from yawdamp_ros.analysis.errors import AnalysisError
 from yawdamp_ros.analysis.lane_change import steer_axle_position
 from yawdamp_ros.analysis.roughness import track_spectra, unevenness_of
@@ -71,14 +71,15 @@ class Tracking(NamedTuple):
         Swept width [m] that `PERCENTILE` of the road is within.
     steady : float
         Swept width without roughness [m].
-    mean, deviation : ndarray, shape (k,)
-        Mean lateral position of the k corners [m], to the left positive, and its standard deviation.
+    mean, spread : ndarray, shape (k,)
+        Mean lateral position of the k corners [m], to the left positive, and the distance from it, to one
+        side, that `PERCENTILE` of the road is within.
     """
 
     width: float
     steady: float
     mean: FloatArray
-    deviation: FloatArray
+    spread: FloatArray
 
 
 def tracking_ability_on_a_straight_path(vehicle: Vehicle, speed: float) -> float:
@@ -153,8 +154,9 @@ def tracking(vehicle: Vehicle, speed: float, index: float = INDEX) -> Tracking:
     covariance = np.einsum("imk,jmk,mk->ij", moved, moved.conj(), spectra).real
     variance = np.diag(covariance)
     apart = variance[:, np.newaxis] + variance - 2.0 * covariance
-    widths = mean[:, np.newaxis] - mean + float(ndtri(PERCENTILE)) * np.sqrt(np.maximum(apart, 0.0))
-    return Tracking(float(widths.max()), float(np.ptp(mean)), mean, np.sqrt(variance))
+    quantile = float(ndtri(PERCENTILE))
+    widths = mean[:, np.newaxis] - mean + quantile * np.sqrt(np.maximum(apart, 0.0))
+    return Tracking(float(widths.max()), float(np.ptp(mean)), mean, quantile * np.sqrt(variance))
 
 
 def corner_response(dynamics: NonlinearDynamics, steady: SteadyTurn, wavenumbers: FloatArray) -> ComplexArray:
@@ -194,7 +196,7 @@ def corner_response(dynamics: NonlinearDynamics, steady: SteadyTurn, wavenumbers
             f"{vehicle.name}: no driver who looks {PREVIEW:g} s ahead holds it on a line at {speed:.4g} m/s"
         )
         raise AnalysisError(message)
-    places = _places(vehicle)
+    places = straight_places(vehicle)
     rates = (1j * speed * wavenumbers).astype(np.complex128)
     inputs = np.zeros((len(rates), len(matrix), 2), dtype=complex)
     inputs[:, : len(free)] = road_rates(dynamics, steady, rates, places / speed)[:, free]
@@ -284,8 +286,3 @@ def _with_driver(
     matrix[count, -1] = speed
     matrix[-1, :count][linear.states == layout.yaw_rate.start] = 1.0
     return matrix, linear.states
-
-
-def _places(vehicle: Vehicle) -> FloatArray:
-    """Positions of the centres of gravity of all units along a straight combination [m]."""
-    return np.concatenate([[0.0], np.cumsum([rear - front for rear, front in vehicle.hitches])])

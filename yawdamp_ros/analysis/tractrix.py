@@ -106,6 +106,11 @@ class Turn(NamedTuple):
     position: "np.ndarray[tuple[int, ...], np.dtype[np.complex128]]"
     steering: FloatArray
 
+    @property
+    def bodies(self) -> list[int]:
+        """Units that have a body."""
+        return [index for index, unit in enumerate(self.geometry) if unit.body]
+
     def path(self, unit: int, forward: float, left: float) -> tuple[FloatArray, FloatArray]:
         """Path of a point of a unit.
 

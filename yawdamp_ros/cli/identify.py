@@ -77,7 +77,7 @@ def _estimate_rows(found: Identification) -> list[tuple[str, ...]]:
 def _figures(estimate: Estimate) -> tuple[str, ...]:
     """Value and ends of the interval, to two figures of the interval's width."""
     width = estimate.high - estimate.low
-    decimals = min(max(1 - math.floor(math.log10(width)), 0), 9) if width > 0.0 else 9
+    decimals = min(max(1 - math.floor(math.log10(width)), 0), 9) if 0.0 < width < math.inf else 9
     return tuple(f"{number:.{decimals}f}" for number in (estimate.value, estimate.low, estimate.high))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from yawdamp_ros.analysis import AnalysisError, Assessment, Finding, low_speed_turn
 from yawdamp_ros.analysis.swept_path import front_swing, rear_swing, stations
 from yawdamp_ros.analysis.traction import SLIGHT_GRADE, acceleration_from_rest, force_balance
+from yawdamp_ros.analysis.tractrix import Turn
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.vehicle import Vehicle
 
@@ -16,8 +17,6 @@ POINTS = 240
 """Most points of a drawn line."""
 FASTEST = 110.0
 """Highest speed of the balance of forces [km/h]."""
-SPREAD = 2.326
-"""Standard deviations of a 99th percentile."""
 GREY = 6
 """Colour of limits."""
 
@@ -153,34 +152,28 @@ def _acceleration(vehicle: Vehicle, _: Finding) -> Chart:
 
 def _front(vehicle: Vehicle, _: Finding) -> Chart:
     turn = low_speed_turn(vehicle)
-    places, units = stations(turn), vehicle.unit_names
-    lines = [
-        Line(units[index], places, front_swing(turn, index), index)
-        for index, unit in enumerate(turn.geometry)
-        if unit.body
-    ]
     return Chart(
         "place along the guided path, m",
         "frontal swing, m",
-        lines,
+        _of_bodies(vehicle, turn, stations(turn), front_swing),
         "How far each front corner is outside the path of the outer front tyre; the arc begins at 0 m.",
     )
 
 
 def _rear(vehicle: Vehicle, _: Finding) -> Chart:
     turn = low_speed_turn(vehicle)
-    units = vehicle.unit_names
-    lines = [
-        Line(units[index], turn.way, np.maximum(rear_swing(turn, index), 0.0), index)
-        for index, unit in enumerate(turn.geometry)
-        if unit.body
-    ]
     return Chart(
         "way of the guided tyre, m",
         "tail swing, m",
-        lines,
+        _of_bodies(vehicle, turn, turn.way, lambda turn, unit: np.maximum(rear_swing(turn, unit), 0.0)),
         "How far each rear corner is outside its straight way.",
     )
+
+
+def _of_bodies(
+    vehicle: Vehicle, turn: Turn, x: FloatArray, swing: Callable[[Turn, int], FloatArray]
+) -> list[Line]:
+    return [Line(vehicle.unit_names[unit], x, swing(turn, unit), unit) for unit in turn.bodies]
 
 
 def _friction(vehicle: Vehicle, _: Finding) -> Chart:
@@ -196,11 +189,11 @@ def _friction(vehicle: Vehicle, _: Finding) -> Chart:
 
 
 def _tracking(vehicle: Vehicle, finding: Finding) -> Chart:
-    from yawdamp_ros.analysis.bodies import corners  # noqa: PLC0415
+    from yawdamp_ros.analysis.bodies import corners, straight_places  # noqa: PLC0415
     from yawdamp_ros.analysis.tracking import tracking  # noqa: PLC0415
 
     found = tracking(vehicle, finding.speed)
-    places = np.cumsum([0.0, *(rear - front for rear, front in vehicle.hitches)])
+    places = straight_places(vehicle)
     x = np.array([places[unit] + corner.real for unit, corner in corners(vehicle)])
     lines = []
     for number in range(len(vehicle.units)):
@@ -208,15 +201,13 @@ def _tracking(vehicle: Vehicle, finding: Finding) -> Chart:
         lines.append(Line(vehicle.unit_names[number], x[own], found.mean[own], number))
         for side, sign in ((slice(0, 4, 2), -1.0), (slice(1, 4, 2), 1.0)):
             edge = 4 * number + np.arange(4)[side]
-            lines.append(
-                Line("", x[edge], found.mean[edge] + sign * SPREAD * found.deviation[edge], number, "4 3")
-            )
+            lines.append(Line("", x[edge], found.mean[edge] + sign * found.spread[edge], number, "4 3"))
     return Chart(
         "place along the combination, m",
         "left, m",
         lines,
-        "Mean places of the bodies, seen from above, scales unequal; dashed: 99 % of the road. Without "
-        f"roughness {found.steady:.2f} m.",
+        "Mean places of the bodies, seen from above, scales unequal; dashed: the side stays within on 99 % "
+        f"of the road. Without roughness {found.steady:.2f} m.",
     )
 
 
@@ -224,7 +215,7 @@ def _braking(vehicle: Vehicle, finding: Finding) -> Chart:
     from yawdamp_ros.analysis.bodies import lateral_positions  # noqa: PLC0415
     from yawdamp_ros.analysis.driven import stop_on_split_friction  # noqa: PLC0415
 
-    outputs = stop_on_split_friction(vehicle, finding.speed).outputs
+    outputs = stop_on_split_friction(vehicle, finding.speed)
     across, way = lateral_positions(vehicle, outputs, 0.0), outputs.position[:, 0, 0]
     lines = [
         Line("leftmost corner", way, across.max(axis=1), 0),

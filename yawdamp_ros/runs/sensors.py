@@ -121,8 +121,8 @@ class _RandomWalk:
     """
 
     def __init__(self, seed: int, units: int) -> None:
-        # A stream of its own: those of the noise are of a seed and a step.
-        self._generator = np.random.default_rng([seed, 0, 0])
+        # A stream of its own: those of the noise are of a seed and a step, and zeros behind change none.
+        self._generator = np.random.default_rng([seed, 0, 0, 1])
         self._shape = units, len(AXES)
         self._second = 0
         self._before = np.zeros(self._shape)

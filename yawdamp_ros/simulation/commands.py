@@ -233,10 +233,12 @@ class Commands:
 
     def _follow_route(self) -> None:
         """Let the friction of the present place act; backwards the distance decreases."""
+        if self._route is None:
+            return
         (since, before), now = self._last, (self._motion.step, self._motion.speed)
         self._last = now
         self._distance += 0.5 * (before + now[1]) * self._grid.seconds(now[0] - since)
-        if self._route is not None and (friction := self._route.at(self._distance)) is not None:
+        if (friction := self._route.at(self._distance)) is not None:
             self.held["friction"].value = friction
 
     def _new(self, step: int) -> list[AppliedInput]:
