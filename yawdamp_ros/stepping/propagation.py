@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
@@ -134,16 +135,17 @@ class Propagation:
 
     def _take_blocks(self, angles: FloatArray, states: FloatArray) -> list[tuple[int, float]]:
         """Take whole blocks from the start of one; return all but the first, which is the caller's."""
-        starting = np.append(self._angles[0], angles)
+        size, block = len(self._state), self._block
         products = states.reshape(-1, len(self._product))
+        angles_of_blocks = sliding_window_view(np.append(self._angles[0], angles), block + 1)[::block]
+        blocks = zip(angles_of_blocks, products, products[:, -size - 1 : -1], strict=True)
         dot, start, state, held = self.propagator.dot, self._start, self._state, self._angles
-        size, block = len(state), self._block
         # An unstable motion may overflow; the caller checks its values.
         with np.errstate(over="ignore", invalid="ignore"):
-            for index, product in enumerate(products):
-                held[:] = starting[index * block : (index + 1) * block + 1]
+            for held_angles, product, last in blocks:
+                held[:] = held_angles
                 dot(start, product)
-                state[:] = product[-size - 1 : -1]
+                state[:] = last
         self._product[:] = products[-1]
         self._taken = block
         return [(block, turned) for turned in products[:-1, -1].tolist()]

@@ -16,6 +16,7 @@ from yawdamp_ros.dynamics.kinematics import (
     coupled_velocities,
 )
 from yawdamp_ros.stepping.errors import SteppingError
+from yawdamp_ros.stepping.ground_path import GroundPath
 from yawdamp_ros.stepping.propagation import Propagation, outputs_of
 from yawdamp_ros.stepping.propagators import Propagators
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
@@ -41,8 +42,7 @@ class _Instants(NamedTuple):
 class Stepper:
     """A linear model in time.
 
-    State and yaw are exact while the steering is held; see `Propagation`. The ground path is the only
-    quadrature, by the trapezoidal rule, for it turns with the yaw.
+    State and yaw are exact while the steering is held; see `Propagation`. The path follows by `GroundPath`.
 
     Parameters
     ----------
@@ -81,8 +81,8 @@ class Stepper:
         self._motion = Propagation(self._at_speed(model.speed))
         self._yaw = Yaw()  # of the lead unit at the start of the block
         self._start = Start()
-        self._position = 0.0j
-        self._velocity = complex(model.speed)
+        self._path = GroundPath(step_size)
+        self._set_ground_velocity()
 
     @property
     def speed(self) -> float:
@@ -141,7 +141,7 @@ class Stepper:
     def _stand_at_start(self) -> None:
         self._motion.stand(np.zeros(2 * self._units))
         self._yaw.set(self._start.yaw, 0.0)
-        self._position = complex(self._start.x, self._start.y)
+        self._path.position = complex(self._start.x, self._start.y)
         self._set_ground_velocity()
 
     def snapshot(self) -> Mapping[str, Any]:
@@ -155,8 +155,8 @@ class Stepper:
             "state": self.state.tolist(),
             "yaw": self._yaw.parts.value,
             "yaw_remainder": self._yaw.parts.remainder,
-            "x": self._position.real,
-            "y": self._position.imag,
+            "x": self._path.position.real,
+            "y": self._path.position.imag,
             "start": list(self._start[:3]),
             "sampled": not self._inputs,
         }
@@ -169,7 +169,7 @@ class Stepper:
         self._yaw.set(snapshot["yaw"], snapshot["yaw_remainder"])
         self._motion.steering_angle = snapshot["steering_angle"]
         self._start = Start(*snapshot.get("start", ()))
-        self._position = complex(snapshot["x"], snapshot["y"])
+        self._path.position = complex(snapshot["x"], snapshot["y"])
         self._set_ground_velocity()
         self._inputs = []
 
@@ -240,7 +240,7 @@ class Stepper:
 
     def _now(self) -> _Instants:
         states = np.append(self.state, self._motion.yaw_since_block_start)
-        return _Instants(states, np.array(self._yaw.parts), np.asarray(self._position))
+        return _Instants(states, np.array(self._yaw.parts), np.asarray(self._path.position))
 
     def _advance(self, angles: FloatArray) -> tuple[FloatArray, list[tuple[int, YawParts]], ComplexArray]:
         """Take a step for each of k angles.
@@ -255,27 +255,16 @@ class Stepper:
         """
         states = np.empty((len(angles), 2 * self._units + 1))
         steps_of_blocks = self._motion.advance(angles, states)
-        turned = states[:, -1]
         self.step += len(angles)
-        blocks = []
+        yaw = states[:, -1].copy()
+        blocks, done = [], 0
         for steps, turned_before in steps_of_blocks:
             if turned_before:
                 self._yaw.turn(turned_before)
             blocks.append((steps, self._yaw.parts))
-        if len(blocks) == 1:
-            yaw = turned + self._yaw.direction
-        else:
-            counts, parts = zip(*blocks, strict=True)
-            yaw = turned + np.repeat([part.wrapped + part.remainder for part in parts], counts)
-        velocities = _ground_velocity(self.speed, states[:, 0], yaw)
-        ways = np.empty_like(velocities)
-        ways[0], ways[1:] = self._velocity, velocities[:-1]
-        ways += velocities
-        ways *= 0.5 * self.step_size
-        ways[0] += self._position
-        positions = np.add.accumulate(ways)
-        self._position, self._velocity = complex(positions[-1]), complex(velocities[-1])
-        return states, blocks, positions
+            yaw[done : done + steps] += self._yaw.direction
+            done += steps
+        return states, blocks, self._path.advance(self.speed, states[:, 0], yaw)
 
     def _sample_of(self, step: npt.NDArray[np.int64], steering_angle: FloatArray, at: _Instants) -> Sample:
         states_and_angle = at.states.copy()
@@ -322,31 +311,14 @@ class Stepper:
         self._inputs.append(AppliedInput(self.step, name, value))
 
     def _set_ground_velocity(self) -> None:
-        # Same bits as `_ground_velocity`, for one instant.
-        heading = complex(np.exp(complex(0.0, self._motion.yaw_since_block_start + self._yaw.direction)))
-        sideways = float(self._motion.state[0])
-        self._velocity = complex(
-            heading.real * self.speed - sideways * heading.imag,
-            heading.imag * self.speed + sideways * heading.real,
-        )
+        direction = self._motion.yaw_since_block_start + self._yaw.direction
+        self._path.set_velocity(self.speed, float(self._motion.state[0]), direction)
 
 
 def _quiet(steps: int) -> AbstractContextManager[object]:
     """Ignore overflow of an unstable motion over many steps; the caller checks its values."""
     # Entering such a context takes as long as several steps.
     return np.errstate(over="ignore", invalid="ignore") if steps > FEW_STEPS else _NOTHING
-
-
-def _ground_velocity(speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:
-    """Velocity over ground, shape (k,)."""
-    # No products of two complex numbers: NumPy rounds them differently at the end of an array.
-    sideways = np.zeros(len(yaw), dtype=np.complex128)
-    sideways.imag = lateral_velocity
-    velocity = _heading(yaw)
-    sideways *= velocity
-    velocity *= speed
-    velocity += sideways
-    return velocity
 
 
 def _heading(yaw: FloatArray) -> ComplexArray:
