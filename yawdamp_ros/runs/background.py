@@ -2,16 +2,18 @@
 
 import threading
 import time
-from collections.abc import Sequence
-from queue import Empty, Full, Queue
+from collections.abc import Iterator, Sequence
+from queue import Full, Queue
 
 from yawdamp_ros.logs.errors import LogError
 from yawdamp_ros.runs.run_writer import RunWriter, SerialisedMessage
 
 QUEUE_LENGTH = 6_000
 """Largest number of samples that wait for the disk, a minute at 100 Hz."""
+WRITE_PERIOD = 0.1
+"""Time between two looks at the queue [s]: a thread that wakes for every sample interrupts the timer's."""
 FLUSH_PERIOD = 0.5
-"""Longest time that a message stays in memory, where a kill would lose it [s]."""
+"""Longest time that a written message stays in memory, where a kill would lose it [s]."""
 
 
 class BackgroundWriter:
@@ -46,7 +48,8 @@ class BackgroundWriter:
         self._lost_before_queue = 0
         self._lost_behind_queue = 0
         self._writer = writer
-        self._queue: Queue[Sequence[SerialisedMessage] | None] = Queue(QUEUE_LENGTH)
+        self._queue: Queue[Sequence[SerialisedMessage]] = Queue(QUEUE_LENGTH)
+        self._closing = threading.Event()
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
@@ -67,35 +70,37 @@ class BackgroundWriter:
 
     def close(self) -> None:
         """Write the queue, finish the file, and wait until this is done."""
-        self._queue.put(None)
+        self._closing.set()
         self._thread.join()
 
     def _work(self) -> None:
         try:
             self._write_until_closed()
-        except LogError as error:
-            self._lost_behind_queue += self._writer.unflushed
-            self.failure = error
-            while (messages := self._queue.get()) is not None:
-                self._lost_behind_queue += len(messages)
-            return
-        try:
             self._writer.close()
         except LogError as error:
             self._lost_behind_queue += self._writer.unflushed
             self.failure = error
+            self._lose_waiting()
+            self._closing.wait()
+            self._lose_waiting()
 
     def _write_until_closed(self) -> None:
         flush_at = time.monotonic() + FLUSH_PERIOD
-        while True:
-            try:
-                messages = self._queue.get(timeout=max(flush_at - time.monotonic(), 0.0))
-            except Empty:
-                pass
-            else:
-                if messages is None:
-                    return
+        closing = False
+        while not closing:
+            # Asked for first: what was offered before the end is in the queue by then.
+            closing = self._closing.wait(WRITE_PERIOD)
+            for messages in self._waiting():
                 self._writer.write(messages)
+                time.sleep(0)  # lets the timer's thread go first
             if time.monotonic() >= flush_at:
                 self._writer.flush()
                 flush_at = time.monotonic() + FLUSH_PERIOD
+
+    def _lose_waiting(self) -> None:
+        self._lost_behind_queue += sum(map(len, self._waiting()))
+
+    def _waiting(self) -> Iterator[Sequence[SerialisedMessage]]:
+        """Take what is in the queue now."""
+        for _ in range(self._queue.qsize()):
+            yield self._queue.get_nowait()
