@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import root
 
 from yawdamp_ros.dynamics.kinematics import FloatArray, IntArray
 from yawdamp_ros.nonlinear.dynamics import NonlinearDynamics
@@ -143,6 +142,8 @@ def steady_turn(
         velocity, yaw_rate = state[layout.velocity.start], state[layout.yaw_rate.start]
         found = velocity * yaw_rate if steering is None else row[STEERING]
         return np.concatenate([rates[free] / scale, [velocity - speed, found - severity * wanted]])
+
+    from scipy.optimize import root  # noqa: PLC0415 - it loads longer than most commands run
 
     for stride in range(1, STRIDES + 1):
         solved = root(residual, sought, args=(stride / STRIDES,), options={"xtol": 1e-13})
