@@ -6,6 +6,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 LOCK := requirements.lock
+# Tests of nodes wait for half of their time: three of them fill two cores.
+WORKERS ?= 3
 NOBLE_EXTRAS := analysis bags cluster colcon fast gymnasium pandas parquet pictures ros test
 # Ubuntu 24.04's Python where one runs (a shim of pyenv may not), else the Python there is.
 NOBLE_PYTHON = $(shell for python in python3.12 $(HOME)/.pyenv/versions/3.12*/bin/python3.12 $(PYTHON); do \
@@ -32,7 +34,7 @@ sim: setup  ## drive the interlink one lane (3.5 m) to the left in 15 s and reco
 	@$(BIN)/python -m yawdamp_ros sim --vehicle interlink --manoeuvre lane_change --amplitude 0.018 --duration 15
 
 test: setup  ## run every test
-	@$(BIN)/python -m pytest -n 2 --dist loadfile
+	@$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile
 
 test-noble:  ## run every test with Ubuntu 24.04's versions, in .venv-noble
 	@$(MAKE) --no-print-directory test PYTHON=$(NOBLE_PYTHON) VENV=.venv-noble LOCK=requirements-noble.lock

@@ -12,7 +12,7 @@ from distributed import LocalCluster
 from rows import Row, by_turns
 
 SWEEP = [sys.executable, "-m", "yawdamp_ros", "sweep", "--range", "units.1.mass=5000:30000"]
-POINTS = 30_000
+POINTS = 60_000
 """Points beside which the start of the command, which no worker shortens, counts little."""
 FEW, MANY = 100_000, 1_000_000
 

@@ -1,6 +1,7 @@
 """Benchmarks within one process, timed by pyperf, which repeats each in several processes."""
 
 import itertools
+import math
 from collections.abc import Callable
 
 import control
@@ -92,12 +93,18 @@ def nonlinear(runner: pyperf.Runner) -> None:
     )
     runner.bench_func("nonlinear steps", lambda: dynamics.steps(start, inputs, STEP, 2000, 2000))
 
-    def integrated() -> None:
+    def integrated(longest: float) -> None:
         solve_ivp(
-            lambda _, state: dynamics.derivatives(state, inputs), (0.0, 2.0), start, rtol=1e-6, atol=1e-6
+            lambda _, state: dynamics.derivatives(state, inputs),
+            (0.0, 2.0),
+            start,
+            rtol=1e-6,
+            atol=1e-6,
+            max_step=longest,
         )
 
-    runner.bench_func("solve_ivp", integrated)
+    runner.bench_func("solve_ivp", lambda: integrated(STEP))
+    runner.bench_func("solve_ivp, adaptive", lambda: integrated(math.inf))
 
 
 def eigenvalues(runner: pyperf.Runner) -> None:

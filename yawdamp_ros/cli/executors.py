@@ -1,5 +1,6 @@
 """Executors of a sweep's chunks: this process, all cores, or a cluster."""
 
+import logging
 import os
 import signal
 import threading
@@ -120,6 +121,8 @@ def _end_with_parent() -> None:
 def _cluster(address: str) -> Iterator[Mapped]:
     from distributed import Client, KilledWorker  # noqa: PLC0415 - an optional library
 
+    # It warns of a chunk that a lost worker takes with it, and computes it again.
+    logging.getLogger("distributed.client").setLevel(logging.ERROR)
     try:
         client = Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:
