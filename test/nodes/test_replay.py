@@ -137,12 +137,14 @@ def test_a_recording_that_is_played_into_the_node_drives_it_as_it_was_driven(gra
     assert len(second) > 0.9 * len(first) > 0.8 * COUNT
 
 
+@pytest.mark.timeout(180)
 @pytest.mark.skipif(not RAV4.exists(), reason="the recorded drive is not part of the project")
-def test_real_driving_drives_the_node(graph: Graph) -> None:
+def test_a_minute_of_real_driving_drives_the_node(graph: Graph) -> None:
     graph.listen(OUTPUTS)
     node = graph.command("sim")
     until(lambda: all(graph.received[topic] for topic in OUTPUTS), "every output")
-    replay = graph.command("replay", str(RAV4), "--steering-ratio", "16.88", "--duration", "15")
+    replay = graph.command("replay", str(RAV4), "--steering-ratio", "16.88")
+    replay.wait(timeout=120)
     assert outcome(replay)[0] == 0
     status, output, errors = stop(node)
     assert status == 0, errors
@@ -151,10 +153,10 @@ def test_real_driving_drives_the_node(graph: Graph) -> None:
     log = read_steering_csv(RAV4).divided(16.88)
     messages = check_run_of_a_log(graph, list(log.angles))
     count = len(messages["/truck/imu"])
-    assert count + dropped >= 1500
+    assert count + dropped >= 6000
     for topic in OUTPUTS:
         arrived, lost = graph.messages(topic), graph.lost[topic]
-        assert len(arrived) + lost + dropped >= 1500
+        assert len(arrived) + lost + dropped >= 6000
         if topic.endswith("/yaw_rate"):
             published = [message.data for _, message in messages[topic]]
             check_all_came([message.data for message in arrived], published, lost)

@@ -123,7 +123,7 @@ def test_autoware_brakes_a_rig_shifts_it_into_reverse_and_backs_it(
     pairs = [
         (each, by_stamp[stamp]) for stamp, each in zip(stamps(found), found, strict=True) if stamp in by_stamp
     ]
-    assert len(pairs) > 5  # how many depends on how busy the machine is
+    assert len(pairs) > 20
     for shown, truth in pairs:
         turn = truth.pose.pose.orientation
         heading = complex(turn.w, turn.z) ** 2
