@@ -30,7 +30,7 @@ SETTLING = 2.0
 
 @contextmanager
 def running(command: Sequence[str], directory: Path) -> Iterator[subprocess.Popen[str]]:
-    """A node, ended by SIGINT."""
+    """A node, ended by SIGINT, and killed where its middleware hangs at the end."""
     process = subprocess.Popen(  # noqa: S603 - this package's own commands
         command, cwd=directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
@@ -39,7 +39,11 @@ def running(command: Sequence[str], directory: Path) -> Iterator[subprocess.Pope
     finally:
         if process.poll() is None:
             process.send_signal(signal.SIGINT)
-        process.wait(timeout=30)
+        try:
+            process.wait(timeout=30)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
 
 
 class Peer:
@@ -83,7 +87,7 @@ def bare_keeps_up(rate: float, directory: Path) -> bool:
     with running([*BARE, str(rate)], directory) as process:
         time.sleep(SETTLING + RATE_SECONDS)
     output, _ = process.communicate()
-    return int(output) == 0
+    return output.strip() == "0"
 
 
 def sim_keeps_up(rate: float, directory: Path) -> bool:

@@ -101,8 +101,8 @@ def test_autoware_brakes_a_rig_shifts_it_into_reverse_and_backs_it(
     process = graph.command(
         "sim",
         "--ros-args",
-        *("-p", "autoware:=true", "-p", "model:=nonlinear", "-p", "initial_speed:=3.0"),
-        *("-p", "wait_for_command:=true", "-p", "real_time_factor:=4.0", "-p", "publish_rate:=20.0"),
+        *("-p", "autoware:=true", "-p", "model:=nonlinear", "-p", "initial_speed:=5.0"),
+        *("-p", "wait_for_command:=true", "-p", "real_time_factor:=2.0", "-p", "publish_rate:=20.0"),
         *("-p", "acceleration_dead_time:=0.1", "-p", "acceleration_time_constant:=0.27"),
         *("-p", "steering_dead_time:=0.24", "-p", "steering_time_constant:=0.27"),
     )
