@@ -6,7 +6,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 LOCK := requirements.lock
-WORKERS ?= 2
+# Tests of nodes wait for half of their time: three workers fill two cores.
+WORKERS ?= 3
 NOBLE_EXTRAS := analysis bags cluster colcon fast gymnasium pandas parquet pictures ros test
 # Ubuntu 24.04's Python where one runs (a shim of pyenv may not), else the Python there is.
 NOBLE_PYTHON = $(shell for python in python3.12 $(HOME)/.pyenv/versions/3.12*/bin/python3.12 $(PYTHON); do \
