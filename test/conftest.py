@@ -1,5 +1,6 @@
 """Fixtures that all tests share."""
 
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +15,10 @@ if TYPE_CHECKING:
 
 for directory in (Path(__file__).parent, Path(__file__).parents[1] / "docs"):
     sys.path.insert(0, str(directory))
+
+# A ROS domain for each of the workers: a node that a test starts without a graph meets no other worker's.
+_WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+os.environ["ROS_DOMAIN_ID"] = str(20 * (_WORKER % 5 + 1))
 
 # The same examples every time: a check that fails now and then is no check of a commit.
 settings.register_profile("repeatable", derandomize=True, deadline=None)

@@ -27,9 +27,9 @@ PATIENCE = 30.0
 """Seconds after which a process is taken to hang; nothing is expected to come near it."""
 SETTLING = 0.3
 """Seconds from one side's finding the other to the reverse: what is sent before is lost."""
-_WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-_DOMAINS = itertools.cycle(range(1 + 20 * (_WORKER % 5), 21 + 20 * (_WORKER % 5)))
-"""ROS domain of this worker alone, so that tests side by side do not hear each other."""
+_WORKER_DOMAIN = int(os.environ["ROS_DOMAIN_ID"])
+_DOMAINS = itertools.cycle(range(_WORKER_DOMAIN - 19, _WORKER_DOMAIN))
+"""ROS domains below this worker's: a graph hears neither another one nor a node that has none."""
 
 
 SLEEPER = """

@@ -26,7 +26,6 @@ def test_a_page_shows_what_its_blocks_print(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    monkeypatch.setenv("ROS_DOMAIN_ID", "99")
     assert (
         reproduce.differences((ROOT / name).read_text(encoding="utf-8"), pages.executed(name, tmp_path)) == []
     )
