@@ -21,26 +21,32 @@ class GroundPath:
 
     def __init__(self, step_size: float) -> None:
         self.position = self.velocity = 0.0j
-        self._half_step = 0.5 * step_size
+        # Arrays and no numbers, which NumPy would convert at every use.
+        self._half_step = np.array(0.5 * step_size, dtype=np.complex128)
+        self._speed = np.zeros((), dtype=np.complex128)
         self._arrays = _Arrays(0)
 
     def set_velocity(self, speed: float, lateral_velocity: float, yaw: float) -> None:
-        """Set the velocity at this instant, to the bits that `advance` computes."""
+        """Set speed [m/s], lateral velocity [m/s] and yaw [rad] at this instant; the speed stays."""
         heading = complex(np.exp(complex(0.0, yaw)))
+        # To the bits that `advance` computes.
         self.velocity = complex(
             heading.real * speed - lateral_velocity * heading.imag,
             heading.imag * speed + lateral_velocity * heading.real,
         )
+        self._speed[()] = speed
 
-    def advance(self, speed: float, lateral_velocity: FloatArray, yaw: FloatArray) -> ComplexArray:
+    def advance(
+        self, lateral_velocity: FloatArray, turned: FloatArray, direction: FloatArray | float
+    ) -> ComplexArray:
         """Go on over k steps.
 
         Parameters
         ----------
-        speed : float
-            Longitudinal speed [m/s].
-        lateral_velocity, yaw : ndarray, shape (k,)
-            Lateral velocity [m/s] and yaw [rad] after each step.
+        lateral_velocity : ndarray, shape (k,)
+            Lateral velocity after each step [m/s].
+        turned, direction : ndarray, shape (k,)
+            Two parts of the yaw after each step [rad]; the second may be common to all.
 
         Returns
         -------
@@ -48,22 +54,22 @@ class GroundPath:
             Position after each step [m].
         """
         # A step costs less than the making of an array, and most calls are for as many steps as the last one.
-        if len(self._arrays.sideways) != len(yaw):
-            self._arrays = _Arrays(len(yaw))
+        if len(self._arrays.angle) != len(turned):
+            self._arrays = _Arrays(len(turned))
         use = self._arrays
         use.velocities[0] = self.velocity
-        use.angle[:] = yaw
-        np.exp(use.exponent, out=use.after)
-        # No products of two complex numbers: NumPy rounds them differently at the end of an array.
+        np.add(turned, direction, out=use.angle)
+        after = np.exp(use.exponent, out=use.after)
+        # No products of two complex numbers with two parts: NumPy rounds them differently at an array's end.
         use.lateral[:] = lateral_velocity
-        np.multiply(use.sideways, use.after, out=use.across)
-        np.multiply(use.after, speed, out=use.after)
-        np.add(use.after, use.across, out=use.after)
-        ways = use.before + use.after
-        ways *= self._half_step
-        ways[0] += self.position
-        positions: ComplexArray = np.add.accumulate(ways, out=ways)
-        self.position, self.velocity = complex(positions[-1]), complex(use.after[-1])
+        np.multiply(use.sideways, after, out=use.across)
+        np.multiply(after, self._speed, out=after)
+        np.add(after, use.across, out=after)
+        positions: ComplexArray = np.add(use.before, after)
+        np.multiply(positions, self._half_step, out=positions)
+        positions[0] = positions.item(0) + self.position
+        np.add.accumulate(positions, out=positions)
+        self.position, self.velocity = positions.item(-1), after.item(-1)
         return positions
 
 

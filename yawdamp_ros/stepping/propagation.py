@@ -67,7 +67,7 @@ class Propagation:
     @property
     def steering_angle(self) -> float:
         """Road-wheel steer angle in force from this instant on [rad]."""
-        return float(self._angles[self._taken])
+        return float(self._angles.item(self._taken))
 
     @steering_angle.setter
     def steering_angle(self, angle: float) -> None:
@@ -81,7 +81,12 @@ class Propagation:
     @property
     def yaw_since_block_start(self) -> float:
         """Yaw of the lead unit since the start of the block [rad]."""
-        return float(self._after[self._taken, -1])
+        return float(self._after.item(self._taken, -1))
+
+    @property
+    def steps_left(self) -> int:
+        """Number of steps to the end of the block."""
+        return self._block - self._taken
 
     def start_block(self) -> float:
         """Start a block at this instant; return the yaw of the lead unit in the last block [rad]."""
@@ -123,29 +128,37 @@ class Propagation:
                 blocks.append((self._block, turned))
                 blocks += self._take_blocks(angles[done:end], states[done:end])
             else:
-                first = self._taken + 1
-                end = done + min(self._block - self._taken, left)
-                self._taken += end - done
-                self._angles[first : self._taken + 1] = angles[done:end]
-                self.propagator.dot(self._start, self._product)
-                states[done:end] = self._after[first : self._taken + 1]
+                end = done + min(self.steps_left, left)
+                states[done:end] = self.advance_within_block(angles[done:end])
                 blocks.append((end - done, turned))
             done = end
         return blocks
+
+    def advance_within_block(self, angles: FloatArray) -> FloatArray:
+        """Take at most `steps_left` steps; the states, as `advance` has them, last until the next step."""
+        first = self._taken + 1
+        end = first + len(angles)
+        self._angles[first:end] = angles
+        self.propagator.dot(self._start, self._product)
+        self._taken = end - 1
+        return self._after[first:end]
 
     def _take_blocks(self, angles: FloatArray, states: FloatArray) -> list[tuple[int, float]]:
         """Take whole blocks from the start of one; return all but the first, which is the caller's."""
         size, block = len(self._state), self._block
         products = states.reshape(-1, len(self._product))
-        angles_of_blocks = sliding_window_view(np.append(self._angles[0], angles), block + 1)[::block]
-        blocks = zip(angles_of_blocks, products, products[:, -size - 1 : -1], strict=True)
-        dot, start, state, held = self.propagator.dot, self._start, self._state, self._angles
+        starts = np.empty((len(products), len(self._start)))
+        starts[0, :size] = self._state
+        starts[:, size:] = sliding_window_view(np.append(self._angles[0], angles), block + 1)[::block]
+        dot = self.propagator.dot
         # An unstable motion may overflow; the caller checks its values.
         with np.errstate(over="ignore", invalid="ignore"):
-            for held_angles, product, last in blocks:
-                held[:] = held_angles
+            dot(starts[0], products[0])
+            states_before = zip(starts[1:, :size], products[:-1, -size - 1 : -1], strict=True)
+            for start, product, (state, before) in zip(starts[1:], products[1:], states_before, strict=True):
+                state[:] = before
                 dot(start, product)
-                state[:] = last
+        self._start[:] = starts[-1]
         self._product[:] = products[-1]
         self._taken = block
         return [(block, turned) for turned in products[:-1, -1].tolist()]

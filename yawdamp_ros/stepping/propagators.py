@@ -1,6 +1,7 @@
 """The matrices of a step at any speed: the zero-order hold by matrix exponential."""
 
 import math
+from functools import cache, lru_cache
 from typing import cast
 
 import numpy as np
@@ -10,6 +11,8 @@ from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.dynamics.speed_family import SPEEDS, SpeedParts
 from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT, Propagator
 
+KNOWN_MODELS = 4
+"""Number of models whose parts are kept."""
 LONGEST_BLOCK = 32
 """Most steps that are computed from one start."""
 LARGEST_MATRIX_PRODUCT = 262144
@@ -37,7 +40,7 @@ class Propagators:
         self._size = len(model.state_matrix)
         self._block = _block_length(self._size)
         self._parts = SpeedParts.of(self._numbers(np.array(SPEEDS)))
-        self._norms = [float(np.abs(self._rates(part)).sum(axis=0).max()) for part in self._parts]
+        self._norms = [_norm(self._rates(part)) for part in self._parts]
 
     def at(self, speed: float) -> Propagator:
         """Matrices at a speed [m/s].
@@ -77,7 +80,13 @@ class Propagators:
 
 def propagator(model: LinearModel, step_size: float) -> Propagator:
     """Matrices of a model for steps of a size [s], as `Propagators` has them."""
-    return Propagators(model, step_size).at(model.speed)
+    return propagators(model, step_size).at(model.speed)
+
+
+@lru_cache(maxsize=KNOWN_MODELS)
+def propagators(model: LinearModel, step_size: float) -> Propagators:
+    """Return `Propagators`; further runs of a model share them."""
+    return Propagators(model, step_size)
 
 
 def exponential(matrix: FloatArray, norm: float | None = None) -> FloatArray:
@@ -97,7 +106,7 @@ def exponential(matrix: FloatArray, norm: float | None = None) -> FloatArray:
     ndarray, shape (n, n)
     """
     size = len(matrix)
-    bound = float(np.abs(matrix).sum(axis=0).max()) if norm is None else norm
+    bound = _norm(matrix) if norm is None else norm
     squarings = max(math.frexp(bound)[1] + 1, 0) if math.isfinite(bound) else 0
     powers = np.empty((3, size, size))
     first, second, third = powers
@@ -121,6 +130,11 @@ def exponential(matrix: FloatArray, norm: float | None = None) -> FloatArray:
         _multiply(result, result, other)
         result, other = other, result
     return result
+
+
+def _norm(matrix: FloatArray) -> float:
+    """Largest sum of a column's absolute values."""
+    return float(np.maximum.reduce(np.add.reduce(np.abs(matrix))))
 
 
 def _steps(step: FloatArray, size: int, block: int) -> FloatArray:
@@ -160,6 +174,7 @@ def _multiply(left: FloatArray, right: FloatArray, product: FloatArray) -> None:
         product[:, part] = left @ right[:, part]
 
 
+@cache
 def _block_length(size: int) -> int:
     fitting = [b for b in range(1, LONGEST_BLOCK + 1) if b * (size + 1) * (size + b + 1) < LARGEST_PRODUCT]
     return max(fitting, default=1)

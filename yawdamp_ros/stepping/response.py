@@ -195,7 +195,8 @@ def linear_response(
     """
     motion = Propagation(propagator(model, step_size))
     motion.steering_angle = float(angles[0])
-    states = np.zeros((len(angles), len(model.state_matrix) + 1))
+    states = np.empty((len(angles), len(model.state_matrix) + 1))
+    states[0] = 0.0
     motion.advance(angles[1:], states[1:])
     states[:, -1] = angles
     return states[:, :-1], outputs_of(motion.propagator, states)

@@ -18,7 +18,7 @@ from yawdamp_ros.dynamics.kinematics import (
 from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.ground_path import GroundPath
 from yawdamp_ros.stepping.propagation import Propagation, outputs_of
-from yawdamp_ros.stepping.propagators import Propagators
+from yawdamp_ros.stepping.propagators import propagators
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.start import Start
 from yawdamp_ros.stepping.yaw import Yaw, YawParts
@@ -76,7 +76,7 @@ class Stepper:
             AppliedInput(0, "steering", 0.0),
         ]
         # A measured speed returns to earlier values: their matrices are computed once.
-        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(Propagators(model, step_size).at)
+        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(propagators(model, step_size).at)
         self._model = model
         self._motion = Propagation(self._at_speed(model.speed))
         self._yaw = Yaw()  # of the lead unit at the start of the block
@@ -253,18 +253,22 @@ class Stepper:
             Steps, and the yaw at the start of the block.
         positions : ndarray of complex, shape (k,)
         """
-        states = np.empty((len(angles), 2 * self._units + 1))
-        steps_of_blocks = self._motion.advance(angles, states)
-        self.step += len(angles)
-        yaw = states[:, -1].copy()
-        blocks, done = [], 0
-        for steps, turned_before in steps_of_blocks:
+        steps = len(angles)
+        if steps <= self._motion.steps_left:
+            states, steps_of_blocks = self._motion.advance_within_block(angles), [(steps, 0.0)]
+        else:
+            states = np.empty((steps, 2 * self._units + 1))
+            steps_of_blocks = self._motion.advance(angles, states)
+        self.step += steps
+        blocks, directions = [], []
+        for taken, turned_before in steps_of_blocks:
             if turned_before:
                 self._yaw.turn(turned_before)
-            blocks.append((steps, self._yaw.parts))
-            yaw[done : done + steps] += self._yaw.direction
-            done += steps
-        return states, blocks, self._path.advance(self.speed, states[:, 0], yaw)
+            blocks.append((taken, self._yaw.parts))
+            directions.append(self._yaw.direction)
+        common = len(blocks) == 1
+        direction = directions[0] if common else np.repeat(directions, [taken for taken, _ in blocks])
+        return states, blocks, self._path.advance(states[:, 0], states[:, -1], direction)
 
     def _sample_of(self, step: npt.NDArray[np.int64], steering_angle: FloatArray, at: _Instants) -> Sample:
         states_and_angle = at.states.copy()
