@@ -27,6 +27,7 @@ $(VENV)/ready: $(LOCK) setup.py setup.cfg pyproject.toml $(wildcard resource/com
 	@echo "Installing into $(VENV) (once, about a minute) ..."
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r $(LOCK)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@$(BIN)/python -m compileall -q yawdamp_ros
 	@$(BIN)/python -m yawdamp_ros.nonlinear.warm_up
 	@touch $@
 
