@@ -5,7 +5,6 @@ longitudinal tyre force, lateral tyre force linear in slip angle, rigid friction
 A stack of vehicles is assembled at once: leading axes of every array are those of the stack.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,21 +66,22 @@ def equations_of_motion(vehicle: Vehicle) -> EquationsOfMotion:
     (4, 4)
     """
     rows = cg_rows(vehicle)
-    count, size = rows.shape[-2:]
+    size = rows.shape[-1]
     headings = np.eye(size)[1:]
-    # Each unit moves sideways and turns.
-    motions = np.empty((*rows.shape[:-2], 2 * count, size))
-    motions[..., ::2, :], motions[..., 1::2, :] = rows, headings
-    inertias = _side_by_side([part for unit in vehicle.units for part in (unit.mass, unit.yaw_inertia)])
-    mass = _sum(inertias[..., np.newaxis, np.newaxis] * _outer(motions, motions))
-    axles = [axle for unit in vehicle.units for axle in unit.axles]
-    unit_of_axle = [index for index, unit in enumerate(vehicle.units) for _ in unit.axles]
-    headings_of_axles = headings[unit_of_axle]
-    positions = _side_by_side([axle.position for axle in axles])
-    levers = rows[..., unit_of_axle, :] + positions[..., np.newaxis] * headings_of_axles
-    forces = _side_by_side([axle.cornering_stiffness for axle in axles])[..., np.newaxis] * levers
-    damping, stiffness = _sum(_outer(forces, levers)), _sum(_outer(forces, headings_of_axles))
-    steering = forces[..., [axle.steered for axle in axles], :].sum(axis=-2, initial=0.0)
+    mass, damping, stiffness = (np.zeros((size, size)) for _ in range(3))
+    steering = np.zeros(size)
+    for unit, row, heading in zip(vehicle.units, np.moveaxis(rows, -2, 0), headings, strict=True):
+        mass = mass + _each(unit.mass, 2) * _outer(row, row)
+        mass = mass + _each(unit.yaw_inertia, 2) * _outer(heading, heading)
+        forces = np.zeros(size)
+        for axle in unit.axles:
+            lever = row + _each(axle.position, 1) * heading
+            force = _each(axle.cornering_stiffness, 1) * lever
+            damping = damping + _outer(force, lever)
+            forces = forces + force
+            if axle.steered:
+                steering = steering + force
+        stiffness = stiffness + _outer(forces, heading)
     return EquationsOfMotion(mass, damping, stiffness, steering)
 
 
@@ -132,19 +132,6 @@ def _each(value: float, axes: int) -> float | FloatArray:
     """Number of one vehicle, or of each vehicle of a stack, shaped to multiply vectors or matrices."""
     # A product with a Python number takes half the time of one with an array of a single element.
     return value[(..., *[np.newaxis] * axes)] if isinstance(value, np.ndarray) else value
-
-
-def _side_by_side(values: Sequence[float]) -> FloatArray:
-    """Numbers of one vehicle, or of each vehicle of a stack, along a last axis."""
-    if any(isinstance(value, np.ndarray) for value in values):
-        return np.stack(np.broadcast_arrays(*values), axis=-1)
-    return np.array(values)
-
-
-def _sum(parts: FloatArray) -> FloatArray:
-    """Sum of matrices along the third last axis, one after the other."""
-    total: FloatArray = parts.sum(axis=-3, initial=0.0)
-    return total
 
 
 def _outer(left: FloatArray, right: FloatArray) -> FloatArray:
