@@ -98,7 +98,7 @@ def of_nodes(directory: Path) -> list[Row]:
     recording = "processor time at 100 Hz, recording"
     shown = "steering to first output that shows it, 99th percentile"
     return [
-        Row(recording, "bare node", *by_turns(load(nodes.SIM), load(bare), 3), "cores", "<= 1.3"),
+        Row(recording, "bare node", *by_turns(load(nodes.SIM), load(bare), ROUNDS), "cores", "<= 1.3"),
         Row(
             f"{recording}, of the nonlinear model at 1 kHz",
             "bare node",
