@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from io import BufferedWriter, StringIO
 from pathlib import Path
+from textwrap import indent
 from typing import Any, NamedTuple
 
 from yawdamp_ros.logs import LogError
@@ -169,15 +170,15 @@ class RunWriter:
         if self._failed:
             return
         try:
-            information = self._information()
-            self._writer.add_metadata("rosbag2", {"serialized_metadata": _dump_yaml(information)})
+            information = _dump_yaml(self._information())
+            self._writer.add_metadata("rosbag2", {"serialized_metadata": information})
             self._writer.finish()
             self._check_place()
             self._close_file()
             self._flushed = self._taken
             # The file gets its name when it is complete: readers trust it, and do without if it is missing.
             unfinished = self.directory / "metadata.yaml.unfinished"
-            text = _dump_yaml({"rosbag2_bagfile_information": information})
+            text = f"rosbag2_bagfile_information:\n{indent(information, '  ')}"
             unfinished.write_text(text, encoding="utf-8")
             unfinished.replace(self.directory / "metadata.yaml")
         except OSError as error:
@@ -186,6 +187,9 @@ class RunWriter:
     def _register(self) -> None:
         schemas: dict[str, int] = {}
         self._ids: dict[str, int] = {}
+        # Of two profiles, not of each channel: a node that starts would wait 0.1 s for them.
+        kinds = {channel.latched: channel.qos for channel in self._channels.values()}
+        profiles = {latched: _dump_yaml([qos]) for latched, qos in kinds.items()}
         for name, channel in self._channels.items():
             topic, type_name = channel.topic, channel.type_name
             definition = self._definitions[name]
@@ -198,7 +202,7 @@ class RunWriter:
                 message_encoding="cdr",
                 schema_id=schemas[type_name],
                 metadata={
-                    "offered_qos_profiles": _dump_yaml([channel.qos]),
+                    "offered_qos_profiles": profiles[channel.latched],
                     "topic_type_hash": definition.type_hash,
                 },
             )
