@@ -86,7 +86,7 @@ def test_autoware_s_lateral_steers_and_is_recorded_and_repeated(
     try:
         until(lambda: any(m.position[0] == 0.0625 for m in graph.messages("/joint_states")), "the angle")
     finally:
-        controller.kill()
+        controller.terminate()
         controller.communicate()
     assert stop(process)[0] == 0
     again = graph.command("resimulate", str(run_directory(graph.directory)))
@@ -110,7 +110,7 @@ def test_autoware_brakes_a_rig_shifts_it_into_reverse_and_backs_it(
     try:
         told = driver.communicate(timeout=60)[0].split()
     finally:
-        driver.kill()
+        driver.terminate()
     assert told == ["2", "0.062", "20", "1"]
     status, _, errors = stop(process)
     assert (status, "rejected" in errors) == (0, False)

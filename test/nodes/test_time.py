@@ -67,7 +67,7 @@ class Driven:
         until(lambda: state(self.statuses("steering"), "problems") == "", "no stale command")
 
     def end(self) -> Any:  # noqa: ANN401 - messages of the recording
-        self._controller.kill()
+        self._controller.terminate()  # killed, it might take the node along: they share memory
         self._controller.communicate()
         status, _, errors = stop(self.process)
         assert status == 0, errors
