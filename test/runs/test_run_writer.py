@@ -101,6 +101,24 @@ def test_channels_carry_the_profile_that_metadata_yaml_carries(run: Path) -> Non
         assert entry["message_count"] == 500
 
 
+def test_a_latched_channel_carries_its_own_profile_in_the_file_and_beside_it(tmp_path: Path) -> None:
+    yaml = YAML(typ="safe", pure=True)
+    directory = make_run_directory(tmp_path / "run", numbered=False)
+    channels = {**CHANNELS, "mode": Channel("/mode", FLOAT64, latched=True)}
+    RunWriter(directory, channels, {}, {}).close()
+    with (directory / "run_0.mcap").open("rb") as file:
+        reader = make_reader(file)
+        summary, records = reader.get_summary(), {entry.name: entry for entry in reader.iter_metadata()}
+    assert summary is not None
+    durability = {
+        channel.topic: yaml.load(channel.metadata["offered_qos_profiles"])[0]["durability"]
+        for channel in summary.channels.values()
+    }
+    assert durability == {"/steering": "volatile", "/truck/yaw": "volatile", "/mode": "transient_local"}
+    inside = yaml.load(records["rosbag2"].metadata["serialized_metadata"])
+    assert yaml.load(directory / "metadata.yaml") == {"rosbag2_bagfile_information": inside}
+
+
 def test_a_directory_that_exists_is_none_for_a_run(tmp_path: Path) -> None:
     (tmp_path / "run").mkdir()
     with pytest.raises(LogError, match="run: cannot be recorded to: File exists"):

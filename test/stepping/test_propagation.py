@@ -13,7 +13,7 @@ from strategies import vehicles
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT
-from yawdamp_ros.stepping.propagators import exponential, propagator
+from yawdamp_ros.stepping.propagators import Propagators, exponential, propagator
 from yawdamp_ros.vehicle import Vehicle
 
 
@@ -97,3 +97,11 @@ def test_block_is_the_powers_of_scipys_exponential(vehicle: Vehicle, step_size: 
         expected.append(state[:-1])
     start = np.concatenate([np.linspace(-1.0, 1.0, size), angles])
     np.testing.assert_allclose(steps @ start, expected, atol=1e-11 * np.abs(expected).max())
+
+
+def test_runs_of_a_model_share_its_propagators_and_others_do_not() -> None:
+    model = linear_model(load_vehicle("interlink"))
+    shared = Propagators.of(model, 0.001)
+    assert Propagators.of(model, 0.001) is shared
+    assert Propagators.of(model, 0.01) is not shared
+    assert Propagators.of(linear_model(load_vehicle("truck_trailer")), 0.001) is not shared

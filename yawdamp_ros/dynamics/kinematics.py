@@ -28,12 +28,10 @@ def cg_rows(vehicle: Vehicle) -> FloatArray:
         First column 1, the others lever arms [m]; of a stack whose hitches differ, one matrix a vehicle.
     """
     count = len(vehicle.units)
-    hitches = vehicle.hitches
-    each: list[object] = [hitch for pair in hitches for hitch in pair]
-    stack = np.broadcast_shapes(*[hitch.shape for hitch in each if isinstance(hitch, np.ndarray)])
+    stack = np.broadcast_shapes(*(np.shape(hitch) for pair in vehicle.hitches for hitch in pair))
     rows = np.zeros((*stack, count, count + 1))
     rows[..., 0] = 1.0
-    for index, (rear_hitch, front_hitch) in enumerate(hitches):
+    for index, (rear_hitch, front_hitch) in enumerate(vehicle.hitches):
         rows[..., index + 1, :] = rows[..., index, :]
         rows[..., index + 1, index + 1] += rear_hitch
         rows[..., index + 1, index + 2] -= front_hitch

@@ -21,7 +21,7 @@ LOWEST_SPEED = 0.01
 """Lowest speed [m/s]. Slip angles divide by the speed and grow without bound towards standstill."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False)  # a model is equal to itself alone, and can be a key
 class LinearModel:
     """``x' = A x + B delta``, ``y = C x + D delta`` for n units.
 

@@ -187,7 +187,7 @@ class RunWriter:
     def _register(self) -> None:
         schemas: dict[str, int] = {}
         self._ids: dict[str, int] = {}
-        # Of two profiles, not of each channel: a node that starts would wait 0.1 s for them.
+        # Written once for each of the two: the first message of a node waits for this.
         kinds = {channel.latched: channel.qos for channel in self._channels.values()}
         profiles = {latched: _dump_yaml([qos]) for latched, qos in kinds.items()}
         for name, channel in self._channels.items():

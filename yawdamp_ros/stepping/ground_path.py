@@ -27,7 +27,7 @@ class GroundPath:
         self._arrays = _Arrays(0)
 
     def set_velocity(self, speed: float, lateral_velocity: float, yaw: float) -> None:
-        """Set speed [m/s], lateral velocity [m/s] and yaw [rad] at this instant; the speed stays."""
+        """Set speed [m/s], which stays, lateral velocity [m/s] and yaw [rad] at this instant."""
         heading = complex(np.exp(complex(0.0, yaw)))
         # To the bits that `advance` computes.
         self.velocity = complex(

@@ -67,7 +67,7 @@ class Propagation:
     @property
     def steering_angle(self) -> float:
         """Road-wheel steer angle in force from this instant on [rad]."""
-        return float(self._angles.item(self._taken))
+        return float(self._angles[self._taken])
 
     @steering_angle.setter
     def steering_angle(self, angle: float) -> None:
@@ -81,7 +81,7 @@ class Propagation:
     @property
     def yaw_since_block_start(self) -> float:
         """Yaw of the lead unit since the start of the block [rad]."""
-        return float(self._after.item(self._taken, -1))
+        return float(self._after[self._taken, -1])
 
     @property
     def steps_left(self) -> int:

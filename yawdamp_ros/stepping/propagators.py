@@ -1,7 +1,7 @@
 """The matrices of a step at any speed: the zero-order hold by matrix exponential."""
 
 import math
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import cast
 
 import numpy as np
@@ -12,7 +12,7 @@ from yawdamp_ros.dynamics.speed_family import SPEEDS, SpeedParts
 from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT, Propagator
 
 KNOWN_MODELS = 4
-"""Number of models whose parts are kept."""
+"""Number of models whose propagators are kept for further runs."""
 LONGEST_BLOCK = 32
 """Most steps that are computed from one start."""
 LARGEST_MATRIX_PRODUCT = 262144
@@ -41,6 +41,12 @@ class Propagators:
         self._block = _block_length(self._size)
         self._parts = SpeedParts.of(self._numbers(np.array(SPEEDS)))
         self._norms = [_norm(self._rates(part)) for part in self._parts]
+
+    @classmethod
+    @lru_cache(maxsize=KNOWN_MODELS)
+    def of(cls, model: LinearModel, step_size: float) -> "Propagators":
+        """Return those of a model, which all its runs share."""
+        return cls(model, step_size)
 
     def at(self, speed: float) -> Propagator:
         """Matrices at a speed [m/s].
@@ -80,13 +86,7 @@ class Propagators:
 
 def propagator(model: LinearModel, step_size: float) -> Propagator:
     """Matrices of a model for steps of a size [s], as `Propagators` has them."""
-    return propagators(model, step_size).at(model.speed)
-
-
-@lru_cache(maxsize=KNOWN_MODELS)
-def propagators(model: LinearModel, step_size: float) -> Propagators:
-    """Return `Propagators`; further runs of a model share them."""
-    return Propagators(model, step_size)
+    return Propagators.of(model, step_size).at(model.speed)
 
 
 def exponential(matrix: FloatArray, norm: float | None = None) -> FloatArray:
@@ -134,7 +134,7 @@ def exponential(matrix: FloatArray, norm: float | None = None) -> FloatArray:
 
 def _norm(matrix: FloatArray) -> float:
     """Largest sum of a column's absolute values."""
-    return float(np.maximum.reduce(np.add.reduce(np.abs(matrix))))
+    return float(np.abs(matrix).sum(axis=0).max())
 
 
 def _steps(step: FloatArray, size: int, block: int) -> FloatArray:
@@ -174,7 +174,6 @@ def _multiply(left: FloatArray, right: FloatArray, product: FloatArray) -> None:
         product[:, part] = left @ right[:, part]
 
 
-@cache
 def _block_length(size: int) -> int:
     fitting = [b for b in range(1, LONGEST_BLOCK + 1) if b * (size + 1) * (size + b + 1) < LARGEST_PRODUCT]
     return max(fitting, default=1)

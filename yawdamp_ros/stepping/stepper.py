@@ -18,7 +18,7 @@ from yawdamp_ros.dynamics.kinematics import (
 from yawdamp_ros.stepping.errors import SteppingError
 from yawdamp_ros.stepping.ground_path import GroundPath
 from yawdamp_ros.stepping.propagation import Propagation, outputs_of
-from yawdamp_ros.stepping.propagators import propagators
+from yawdamp_ros.stepping.propagators import Propagators
 from yawdamp_ros.stepping.sample import AppliedInput, Sample
 from yawdamp_ros.stepping.start import Start
 from yawdamp_ros.stepping.yaw import Yaw, YawParts
@@ -76,7 +76,7 @@ class Stepper:
             AppliedInput(0, "steering", 0.0),
         ]
         # A measured speed returns to earlier values: their matrices are computed once.
-        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(propagators(model, step_size).at)
+        self._at_speed = lru_cache(maxsize=KNOWN_SPEEDS)(Propagators.of(model, step_size).at)
         self._model = model
         self._motion = Propagation(self._at_speed(model.speed))
         self._yaw = Yaw()  # of the lead unit at the start of the block
