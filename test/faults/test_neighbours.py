@@ -1,4 +1,5 @@
 import signal
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from graph import SLEEPER, Graph, stop, until, values
+from graph import PATIENCE, SLEEPER, Graph, stop, until, values
 from runs import PERIOD, recorded, run_directory, simulated_times
 from yawdamp_ros.cli import run
 
@@ -90,6 +91,22 @@ def shared_memory(process: Any) -> set[Path]:  # noqa: ANN401
     return locks | {lock.with_name(lock.name.removesuffix("_el")) for lock in locks}
 
 
+def come_and_gone(graph: Graph, crowd: subprocess.Popen[str]) -> None:
+    """A crowd has passed by; where Fast DDS does not let go of one, it is killed and another one comes.
+
+    Built for a glibc before 2.30, Fast DDS can spin without end where a participant goes amid discovery, and
+    about one crowd in two hundred does (its issue 6513).
+    """
+    try:
+        crowd.communicate(timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        crowd.kill()
+        crowd.communicate()
+        come_and_gone(graph, graph.script(CROWD))
+    else:
+        assert crowd.returncode == 0
+
+
 def test_ten_thousand_commands_a_second_steer_and_hold_nothing_up(graph: Graph) -> None:
     process = started(graph)
     flood = graph.script(FLOOD)
@@ -117,10 +134,8 @@ def test_subscribers_that_stopped_reading_hold_nothing_up(graph: Graph) -> None:
 
 def test_a_hundred_nodes_come_and_go(graph: Graph) -> None:
     process = started(graph)
-    crowds = [graph.script(CROWD) for _ in range(2)]
-    for crowd in crowds:
-        crowd.communicate()
-        assert crowd.returncode == 0
+    for crowd in [graph.script(CROWD) for _ in range(2)]:
+        come_and_gone(graph, crowd)
     more_samples(graph, 20)
     in_good_order(graph, process)
 

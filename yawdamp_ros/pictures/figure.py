@@ -6,6 +6,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.legend import Legend
@@ -22,7 +23,7 @@ GREY = "#808080"
 LEGEND_MARGIN = 0.02
 """Fraction of the figure's height between legend and axes."""
 
-FORMATS = {".png": "png", ".svg": "svg"}
+KINDS = (".png", ".svg")
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -99,16 +100,28 @@ def save(figure: Figure, path: str | Path, dpi: float = 120.0) -> None:
     >>> Path("picture.png").read_bytes()[1:4]
     b'PNG'
     """
-    form = FORMATS.get(Path(path).suffix.lower())
-    if form is None:
-        message = f"{path}: expected a name ending in {' or '.join(FORMATS)}"
+    kind = Path(path).suffix.lower()
+    if kind not in KINDS:
+        message = f"{path}: expected a name ending in {' or '.join(KINDS)}"
         raise PictureError(message)
-    metadata = {"Date": None, "Creator": None} if form == "svg" else {"Software": None}
     try:
         with mpl.rc_context({"svg.hashsalt": "yawdamp_ros"}), warnings.catch_warnings():
             # A name may hold characters that no font has; they become boxes.
             warnings.filterwarnings("ignore", message="Glyph")
-            figure.savefig(path, format=form, dpi=dpi, metadata=metadata)
+            if kind == ".svg":
+                figure.savefig(path, format="svg", metadata={"Date": None, "Creator": None})
+            else:
+                _save_png(figure, path, dpi)
     except OSError as error:
         message = f"{path}: cannot be written: {error.strerror}"
         raise PictureError(message) from error
+
+
+def _save_png(figure: Figure, path: str | Path, dpi: float) -> None:
+    """Write a PNG by one drawing: `Figure.savefig` draws twice, first for the layout alone."""
+    before = figure.get_dpi()
+    figure.set_dpi(dpi)
+    try:
+        FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})
+    finally:
+        figure.set_dpi(before)
