@@ -204,8 +204,9 @@ def linear_response(
 
 def _finite(sample: Sample, motion: Motion, grid: TimeGrid) -> Sample:
     """Return a sample of several instants; raise if its values overflow."""
-    known = (np.abs(sample.yaw) <= LARGEST_YAW).all(axis=-1)
-    if not known.all():
+    # Of NaN neither comparison is true.
+    if not (sample.yaw.max() <= LARGEST_YAW and sample.yaw.min() >= -LARGEST_YAW):
+        known = (np.abs(sample.yaw) <= LARGEST_YAW).all(axis=-1)
         time = grid.seconds(int(sample.step[np.argmin(known)]))
         message = f"{motion.vehicle.name}: unstable, beyond all numbers at {time:g} s"
         raise SteppingError(message)
