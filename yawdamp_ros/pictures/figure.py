@@ -122,6 +122,6 @@ def _save_png(figure: Figure, path: str | Path, dpi: float) -> None:
     before = figure.get_dpi()
     figure.set_dpi(dpi)
     try:
-        FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})
+        FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})  # type: ignore[no-untyped-call]
     finally:
         figure.set_dpi(before)
