@@ -4,8 +4,11 @@ import numpy as np
 
 from yawdamp_ros.dynamics.kinematics import FloatArray
 
-LARGEST_SYSTEM = 11
-"""Equations that LAPACK solves in one thread; OpenBLAS 0.3.23 splits larger ones, which changes bits."""
+LARGEST_SYSTEM = 4
+"""Equations whose bits no kernels of OpenBLAS 0.3.23 change by splitting them over threads.
+
+From 5 on those for processors without AVX do, from 6 on those for AVX-512, from 12 on those for AVX2.
+"""
 
 
 def solve(matrix: FloatArray, right: FloatArray) -> FloatArray:
