@@ -94,8 +94,8 @@ def shared_memory(process: Any) -> set[Path]:  # noqa: ANN401
 def come_and_gone(graph: Graph, crowd: subprocess.Popen[str]) -> None:
     """A crowd has passed by; where Fast DDS does not let go of one, it is killed and another one comes.
 
-    Built for a glibc before 2.30, Fast DDS can spin without end where a participant goes amid discovery, and
-    about one crowd in two hundred does (its issue 6513).
+    Built for a glibc before 2.30, as from PyPI, Fast DDS can spin without end where a participant goes amid
+    discovery (its issue 6513): 2 of some 500 crowds did.
     """
     try:
         crowd.communicate(timeout=PATIENCE)

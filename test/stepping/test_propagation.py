@@ -1,8 +1,3 @@
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,6 +5,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 
 from strategies import vehicles
+from threads import answers_by_threads
 from yawdamp_ros import linear_model, load_vehicle
 from yawdamp_ros.dynamics.kinematics import FloatArray
 from yawdamp_ros.stepping.propagation import LARGEST_PRODUCT
@@ -63,18 +59,7 @@ for units in (8, 31, 32, 33, 40, 44, 46, 47, 48, 49, 50):
     states, outputs = linear_response(model, np.full(40, 0.01), 0.001)
     print(units, hashlib.sha256(states.tobytes() + outputs.tobytes()).hexdigest())
 """
-    printed = set()
-    for threads in (1, 2, 3, 7):
-        environment = {
-            **os.environ,
-            "OPENBLAS_NUM_THREADS": str(threads),
-            "PYTHONPATH": str(Path(__file__).parents[1]),
-        }
-        done = subprocess.run(
-            [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
-        )
-        printed.add(done.stdout)
-    assert len(printed) == 1
+    assert len(answers_by_threads(program)) == 1
 
 
 @given(vehicles(1, 4), st.sampled_from([1e-4, 0.001, 0.01, 0.1]))
